@@ -1,0 +1,149 @@
+#include "simplify/cut_surfaces.h"
+
+#include <algorithm>
+
+namespace hexweft {
+namespace {
+
+bool has_edge(const HexMesh& mesh, CellHandle c, EdgeHandle e) {
+  const auto& edges = mesh.edges(c);
+  return std::find(edges.begin(), edges.end(), e) != edges.end();
+}
+
+// The edge that continues e straight through v: the one that shares no cell with it, if just one does.
+EdgeHandle straight_on(const HexMesh& mesh, EdgeHandle e, VertexHandle v) {
+  EdgeHandle found;
+  for (EdgeHandle g : mesh.edges(v)) {
+    if (g == e) continue;
+    const auto cells = mesh.cells(g);
+    if (std::any_of(cells.begin(), cells.end(), [&](CellHandle c) { return has_edge(mesh, c, e); })) {
+      continue;
+    }
+    if (found.valid()) return EdgeHandle();
+    found = g;
+  }
+  return found;
+}
+
+}  // namespace
+
+CutSurfaces::CutSurfaces(const HexMesh& mesh, SingularityGraph& graph)
+    : mesh_(mesh),
+      graph_(graph),
+      cut_(mesh.face_slots(), 0),
+      traced_(mesh.edge_slots(), 0),
+      on_singular_edge_(mesh.vertex_slots(), 0) {
+  std::vector<EdgeHandle> seeds;
+  for (EdgeHandle e : mesh.edges()) {
+    const auto [a, b] = mesh.vertices(e);
+    const bool singular = graph.singular_edge[e.idx];
+    if (singular) on_singular_edge_[a.idx] = on_singular_edge_[b.idx] = 1;
+    if (singular || graph.singular_vertex[a.idx] || graph.singular_vertex[b.idx]) seeds.push_back(e);
+  }
+  trace(std::move(seeds));
+  for (const SingularCurve& curve : graph.curves) {
+    if (curve.closed) add_nodes(curve);
+  }
+}
+
+// Base edges run straight on from the seeds through regular vertices; surfaces start on all of them.
+void CutSurfaces::trace(std::vector<EdgeHandle> seeds) {
+  std::vector<EdgeHandle> front;
+  const auto add = [&](EdgeHandle e) {
+    if (traced_[e.idx]) return;
+    traced_[e.idx] = 1;
+    front.push_back(e);
+  };
+  for (EdgeHandle e : seeds) add(e);
+  while (!front.empty()) {
+    const EdgeHandle e = front.back();
+    front.pop_back();
+    cut_at(e);
+    for (VertexHandle v : mesh_.vertices(e)) {
+      if (graph_.singular_vertex[v.idx] || on_singular_edge_[v.idx]) continue;
+      if (const EdgeHandle on = straight_on(mesh_, e, v); on.valid()) add(on);
+    }
+  }
+  spread();
+}
+
+void CutSurfaces::cut(FaceHandle f) {
+  if (cut_[f.idx] || mesh_.is_boundary(f)) return;
+  cut_[f.idx] = 1;
+  front_.push_back(f);
+  spread();
+}
+
+void CutSurfaces::cut_at(EdgeHandle e) {
+  const auto cells = mesh_.cells(e);
+  for (auto it = cells.begin(); it != cells.end(); ++it) {
+    for (int s : kEdgeSides[it.slot() % 12]) {
+      const HalfFaceHandle hf = mesh_.halfface(*it, s);
+      const FaceHandle f = mesh_.face(hf);
+      if (cut_[f.idx] || mesh_.is_boundary(hf)) continue;
+      cut_[f.idx] = 1;
+      front_.push_back(f);
+    }
+  }
+}
+
+void CutSurfaces::spread() {
+  while (!front_.empty()) {
+    const HalfFaceHandle hf = mesh_.halfface(front_.back());
+    front_.pop_back();
+    for (EdgeHandle e : mesh_.edges(hf)) {
+      if (graph_.singular_edge[e.idx] || graph_.boundary_edge[e.idx]) continue;
+      // Two quarter turns round an edge of four cells lead straight across it.
+      const HalfFaceHandle turned = mesh_.opposite(mesh_.adjacent_in_cell(hf, e));
+      const FaceHandle across = mesh_.face(mesh_.adjacent_in_cell(turned, e));
+      if (cut_[across.idx]) continue;
+      cut_[across.idx] = 1;
+      front_.push_back(across);
+    }
+  }
+}
+
+// A surface crosses a curve at its vertex i if a cut face there has no edge of the curve.
+bool CutSurfaces::is_crossed(const SingularCurve& curve, int i) const {
+  const int n = static_cast<int>(curve.edges.size());
+  const EdgeHandle before = curve.edges[(i + n - 1) % n], after = curve.edges[i];
+  for (EdgeHandle e : mesh_.edges(curve.vertices[i])) {
+    if (e == before || e == after) continue;
+    for (FaceHandle f : mesh_.faces(e)) {
+      const auto edges = mesh_.edges(f);
+      const bool along = std::any_of(edges.begin(), edges.end(),
+                                     [&](EdgeHandle x) { return x == before || x == after; });
+      const auto v = mesh_.vertices(f);
+      const bool at = std::find(v.begin(), v.end(), curve.vertices[i]) != v.end();
+      if (at && !along && cut_[f.idx]) return true;
+    }
+  }
+  return false;
+}
+
+// Nodes where surfaces from elsewhere cross, then in the middle of the longest gaps, or at thirds.
+void CutSurfaces::add_nodes(const SingularCurve& curve) {
+  const int n = static_cast<int>(curve.vertices.size());
+  std::vector<int> nodes;
+  for (int i = 0; i < n; ++i) {
+    if (is_crossed(curve, i)) nodes.push_back(i);
+  }
+  if (nodes.empty()) nodes.push_back(0);
+  if (nodes.size() == 1) {
+    nodes.push_back((nodes[0] + n / 3) % n);
+    nodes.push_back((nodes[0] + 2 * n / 3) % n);
+  } else if (nodes.size() == 2) {
+    const int gap = nodes[1] - nodes[0];
+    const bool inner = gap >= n - gap;
+    nodes.push_back(inner ? nodes[0] + gap / 2 : (nodes[1] + (n - gap) / 2) % n);
+  }
+  std::vector<EdgeHandle> seeds;
+  for (int i : nodes) {
+    const VertexHandle v = curve.vertices[i];
+    graph_.singular_vertex[v.idx] = 1;
+    for (EdgeHandle e : mesh_.edges(v)) seeds.push_back(e);
+  }
+  trace(std::move(seeds));
+}
+
+}  // namespace hexweft
