@@ -1,0 +1,110 @@
+#include "optimize/hausdorff.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <Eigen/Geometry>
+
+#include "ovm/errors.h"
+#include "ovm/hex_mesh.h"
+
+namespace hexweft {
+namespace {
+
+/// Looks for the sample farthest from a surface.
+class FarthestSample {
+ public:
+  explicit FarthestSample(const ReferenceSurface& to) : to_(to) {}
+
+  double look_at(const Eigen::Vector3d& p) {
+    const double d = to_.closest(p).distance;
+    farthest_ = std::max(farthest_, d);
+    return d;
+  }
+
+  /// Samples a triangle and its `levels` subdivisions into four. The distance changes by no more
+  /// than one moves, so a part whose centroid is close enough needs no closer look.
+  void look_at(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
+               int levels) {
+    const Eigen::Vector3d centroid = (a + b + c) / 3;
+    const double reach =
+        std::sqrt(std::max({(a - centroid).squaredNorm(), (b - centroid).squaredNorm(),
+                            (c - centroid).squaredNorm()}));
+    const double d = look_at(centroid);
+    if (levels == 0 || d + reach <= farthest_) return;
+    const Eigen::Vector3d ab = (a + b) / 2, bc = (b + c) / 2, ca = (c + a) / 2;
+    for (const Eigen::Vector3d* p : {&ab, &bc, &ca}) look_at(*p);
+    look_at(ab, bc, ca, levels - 1);
+    look_at(a, ab, ca, levels - 1);
+    look_at(ab, b, bc, levels - 1);
+    look_at(ca, bc, c, levels - 1);
+  }
+
+  double distance() const { return farthest_; }
+
+ private:
+  const ReferenceSurface& to_;
+  double farthest_ = 0;
+};
+
+void check(const HausdorffOptions& o) {
+  if (o.points_per_triangle <= 0) {
+    throw InputError("points_per_triangle = " + std::to_string(o.points_per_triangle) +
+                     ", expected > 0");
+  }
+  if (o.points_per_surface < 0) {
+    throw InputError("points_per_surface = " + std::to_string(o.points_per_surface) +
+                     ", expected >= 0");
+  }
+}
+
+/// Subdivisions after which the parts' centroids are at least n.
+int levels_for(double n) {
+  int levels = 0;
+  for (double parts = 1; parts < n && levels < 12; parts *= 4) ++levels;
+  return levels;
+}
+
+}  // namespace
+
+double one_sided_distance(const ReferenceSurface& from, const ReferenceSurface& to,
+                          const HausdorffOptions& options) {
+  check(options);
+  const auto& points = from.points();
+  const auto& triangles = from.triangles();
+  const auto area_of = [&](const std::array<int, 3>& t) {
+    const Eigen::Vector3d ab = points.col(t[1]) - points.col(t[0]);
+    const Eigen::Vector3d ac = points.col(t[2]) - points.col(t[0]);
+    return ab.cross(ac).norm() / 2;
+  };
+  double area = 0;
+  for (const auto& t : triangles) area += area_of(t);
+  const double wanted =
+      options.points_per_surface > 0
+          ? options.points_per_surface
+          : static_cast<double>(options.points_per_triangle) *
+                static_cast<double>(std::max(triangles.size(), to.triangles().size()));
+  FarthestSample farthest(to);
+  for (Eigen::Index v = 0; v < points.cols(); ++v) farthest.look_at(points.col(v));
+  for (const auto& t : triangles) {
+    const double share = area > 0 ? wanted * area_of(t) / area : 0;
+    farthest.look_at(points.col(t[0]), points.col(t[1]), points.col(t[2]),
+                     levels_for(std::max<double>(options.points_per_triangle, share)));
+  }
+  return farthest.distance();
+}
+
+HausdorffDistance hausdorff_distance(const ReferenceSurface& surface,
+                                     const ReferenceSurface& reference,
+                                     const HausdorffOptions& options) {
+  return {one_sided_distance(surface, reference, options),
+          one_sided_distance(reference, surface, options), reference.bounding_box_diagonal()};
+}
+
+HausdorffDistance hausdorff_distance(const HexMesh& mesh, const ReferenceSurface& reference,
+                                     const HausdorffOptions& options) {
+  return hausdorff_distance(make_reference_surface(mesh), reference, options);
+}
+
+}  // namespace hexweft

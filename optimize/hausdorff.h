@@ -1,0 +1,44 @@
+/// \file
+/// The point-sampled Hausdorff distance of two surfaces.
+///
+///     const auto d = hausdorff_distance(mesh, surface);
+///     if (d.ratio() > 0.01) ...
+#pragma once
+
+#include "optimize/reference_surface.h"
+
+namespace hexweft {
+
+class HexMesh;
+
+/// Which points of a triangle are looked at: its corners, and those of its regular subdivision into
+/// as many parts as it takes to have the number below, with their centroids.
+struct HausdorffOptions {
+  int points_per_triangle = 10;  ///< > 0, at least so many on every triangle
+  int points_per_surface =
+      0;  ///< ≥ 0, spread by area; 0: points_per_triangle × the larger triangle count
+};
+
+/// Distances in model units.
+struct HausdorffDistance {
+  double forward = 0;   ///< largest distance of a sample of the first surface to the second
+  double backward = 0;  ///< largest distance of a sample of the second surface to the first
+  double diagonal = 1;  ///< of the second surface's bounding box
+  double distance() const { return forward > backward ? forward : backward; }
+  double ratio() const { return distance() / diagonal; }  ///< the "HR" of the mesh
+};
+
+/// Largest distance from a sample of `from` to `to`. Samples that cannot be the farthest, because a
+/// sample near them is close, are passed over; the result is the same.
+/// \throws InputError on bad options
+double one_sided_distance(const ReferenceSurface& from, const ReferenceSurface& to,
+                          const HausdorffOptions& options = {});
+
+HausdorffDistance hausdorff_distance(const ReferenceSurface& surface,
+                                     const ReferenceSurface& reference,
+                                     const HausdorffOptions& options = {});
+/// The boundary of a mesh against a reference.
+HausdorffDistance hausdorff_distance(const HexMesh& mesh, const ReferenceSurface& reference,
+                                     const HausdorffOptions& options = {});
+
+}  // namespace hexweft

@@ -1,0 +1,61 @@
+/// \file
+/// The distortion of hexahedra on flat arrays: energy, gradient, preconditioner, quality.
+///
+/// A hexahedron counts as the mean of an energy over its 8 corner tetrahedra, each compared with
+/// the corner of a target cuboid. The eight corners are the eight lanes of one vector, and the
+/// instruction set is chosen at run time. Everything is relative to the target, so the unit of
+/// length cancels.
+///
+/// The Jacobian at a corner has as columns the three mesh edges there, each taken along its axis
+/// and divided by the target's length; its determinant is positive in a valid hexahedron.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "optimize/energies/table.h"
+
+namespace hexweft {
+
+/// Corners of a hexahedron as columns of a point matrix, in the order of ovm/hex_numbering.h.
+using HexCorners = std::array<int, 8>;
+
+/// What a hexahedron should look like.
+struct TargetCuboid {
+  Eigen::Vector3d lengths = Eigen::Vector3d::Ones();  ///< > 0, along the local axes, model units
+  double weight = 1;                                  ///< > 0, of this hexahedron in the sum
+};
+
+/// Instruction sets the evaluation is compiled for. `automatic` takes the best the machine has.
+enum class InstructionSet { automatic, portable, avx2, avx512 };
+
+/// Σ weight · mean over corners of the energy. Infinite where a barrier energy meets a corner with
+/// det ≤ 0; the gradient is then unspecified.
+/// \param points    3 × #points
+/// \param gradient  null, or 3 × #points to which the gradient is *added*
+/// \throws InputError if the machine lacks the instruction set asked for
+double hex_energy(const Energy& energy, const Eigen::Matrix3Xd& points,
+                  std::span<const HexCorners> hexes, std::span<const TargetCuboid> targets,
+                  Eigen::Matrix3Xd* gradient, InstructionSet set = InstructionSet::automatic);
+
+/// Adds to `blocks` a positive model of each vertex's 3 × 3 diagonal block of the second
+/// derivative. \param blocks  6 × #points: xx, xy, xz, yy, yz, zz
+void add_hex_curvature(const Energy& energy, const Eigen::Matrix3Xd& points,
+                       std::span<const HexCorners> hexes, std::span<const TargetCuboid> targets,
+                       Eigen::Matrix<double, 6, Eigen::Dynamic>& blocks);
+
+/// Least corner determinant of every hexahedron over its target's volume: positive means valid
+/// corners.
+std::vector<double> min_relative_determinants(const Eigen::Matrix3Xd& points,
+                                              std::span<const HexCorners> hexes,
+                                              std::span<const TargetCuboid> targets);
+
+/// Scaled Jacobian of every hexahedron, [-1, 1]: the least over its 8 corners and its centre, as
+/// Verdict defines it. A corner with an edge of no length counts -1.
+std::vector<double> scaled_jacobians(const Eigen::Matrix3Xd& points,
+                                     std::span<const HexCorners> hexes);
+
+}  // namespace hexweft

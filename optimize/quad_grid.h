@@ -1,0 +1,66 @@
+/// \file
+/// A uniform grid over quads that come and go, for closest-point distances to a boundary being
+/// edited.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace hexweft {
+
+/// A side of a hexahedron as the two triangles (0,1,2) and (2,3,0).
+using QuadPoints = std::array<Eigen::Vector3d, 4>;
+
+double squared_distance(const Eigen::Vector3d& p, const QuadPoints& quad);
+
+/// Quads are known by the id the caller gives them.
+class QuadGrid {
+ public:
+  /// \param lower, upper  box of the query points; quads may lie outside
+  /// \param cell_size     > 0, about the size of a quad, model units; enlarged if the box is huge
+  QuadGrid(const Eigen::Vector3d& lower, const Eigen::Vector3d& upper, double cell_size);
+
+  /// \param id  ≥ 0, not in the grid
+  void insert(int id, const QuadPoints& quad);
+  void remove(int id);
+  bool contains(int id) const { return id < static_cast<int>(quads_.size()) && quads_[id].present; }
+  const QuadPoints& points(int id) const { return quads_[id].points; }
+
+  struct Nearest {
+    double squared_distance;  ///< infinite if the grid is empty
+    int id;                   ///< -1 if the grid is empty
+  };
+  /// The nearest quad. \param p  inside the box \param guess  a quad of the grid thought to be
+  /// near, or -1
+  Nearest nearest(const Eigen::Vector3d& p, int guess = -1);
+
+ private:
+  struct Quad {
+    QuadPoints points;
+    Eigen::Vector3d centre;
+    double radius = 0;
+    bool present = false;
+    std::int64_t visited = 0;  // number of the last query that looked at it
+  };
+  using Index = std::array<int, 3>;
+  Index index_of(const Eigen::Vector3d& p) const;
+  std::vector<int>& cell(int x, int y, int z) {
+    return cells_[(static_cast<std::size_t>(z) * size_[1] + y) * size_[0] + x];
+  }
+  template <class F>
+  void for_each_cell(const Quad& quad, F&& visit);
+  void look_into(int x, int y, int z, const Eigen::Vector3d& p, Nearest& best);
+
+  Eigen::Vector3d lower_;
+  double cell_size_;
+  Index size_;
+  std::vector<std::vector<int>> cells_;
+  std::vector<Quad> quads_;  // by id
+  int n_present_ = 0;
+  std::int64_t query_ = 0;
+};
+
+}  // namespace hexweft

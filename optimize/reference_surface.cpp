@@ -1,0 +1,277 @@
+#include "optimize/reference_surface.h"
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include <Eigen/Geometry>
+#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+#include <embree3/rtcore.h>
+
+#include "optimize/closest_point.h"
+#include "ovm/errors.h"
+#include "ovm/hex_mesh.h"
+
+namespace hexweft {
+namespace {
+
+struct Traits : OpenMesh::DefaultTraits {
+  using Point = OpenMesh::Vec3d;
+  using Normal = OpenMesh::Vec3d;
+};
+using TriangleMesh = OpenMesh::TriMesh_ArrayKernelT<Traits>;
+
+OpenMesh::Vec3d to_openmesh(const Eigen::Vector3d& p) { return {p[0], p[1], p[2]}; }
+Eigen::Vector3d to_eigen(const OpenMesh::Vec3d& p) { return {p[0], p[1], p[2]}; }
+
+/// Embree's spatial index over triangles, in single precision about a centre. Only a filter.
+class TriangleIndex {
+ public:
+  TriangleIndex(const Eigen::Matrix3Xd& points, const std::vector<std::array<int, 3>>& triangles,
+                const Eigen::Vector3d& centre);
+  TriangleIndex(const TriangleIndex&) = delete;
+  TriangleIndex& operator=(const TriangleIndex&) = delete;
+  ~TriangleIndex() {
+    rtcReleaseScene(scene_);
+    rtcReleaseDevice(device_);
+  }
+  RTCScene scene() const { return scene_; }
+
+ private:
+  RTCDevice device_;
+  RTCScene scene_;
+};
+
+void check(const Eigen::Matrix3Xd& points, const std::vector<std::array<int, 3>>& triangles) {
+  if (triangles.empty()) throw InputError("the reference surface has no triangles");
+  if (!points.allFinite()) throw InputError("a point of the reference surface is not finite");
+  for (const auto& t : triangles) {
+    for (int v : t) {
+      if (v < 0 || v >= points.cols()) {
+        throw InputError("triangle vertex " + std::to_string(v) + ", expected [0, " +
+                         std::to_string(points.cols()) + ")");
+      }
+    }
+  }
+}
+
+/// The triangles as an OpenMesh. A triangle that would make it non-manifold gets vertices of its
+/// own. \param first_vertex  set to the vertex of every face that is its triangle's first corner
+TriangleMesh make_triangle_mesh(const Eigen::Matrix3Xd& points,
+                                const std::vector<std::array<int, 3>>& triangles,
+                                std::vector<TriangleMesh::VertexHandle>& first_vertex) {
+  TriangleMesh mesh;
+  mesh.request_face_normals();
+  std::vector<TriangleMesh::VertexHandle> vertex(points.cols());
+  for (Eigen::Index v = 0; v < points.cols(); ++v)
+    vertex[v] = mesh.add_vertex(to_openmesh(points.col(v)));
+  omerr().disable();  // it reports refused triangles on the console
+  for (const auto& t : triangles) {
+    const bool loop = t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+    first_vertex.push_back(vertex[t[0]]);
+    if (!loop && mesh.add_face(vertex[t[0]], vertex[t[1]], vertex[t[2]]).is_valid()) continue;
+    const auto a = mesh.add_vertex(to_openmesh(points.col(t[0])));
+    const auto b = mesh.add_vertex(to_openmesh(points.col(t[1])));
+    mesh.add_face(a, b, mesh.add_vertex(to_openmesh(points.col(t[2]))));
+    first_vertex.back() = a;
+  }
+  omerr().enable();
+  for (const auto f : mesh.faces()) {
+    const auto& t = triangles[f.idx()];
+    const Eigen::Vector3d ab = points.col(t[1]) - points.col(t[0]),
+                          ac = points.col(t[2]) - points.col(t[0]);
+    mesh.set_normal(f, to_openmesh(ab.cross(ac).normalized()));
+  }
+  return mesh;
+}
+
+/// Normals of the three corners of every triangle: angle-weighted over the triangles round the
+/// vertex that lie within the feature angle of this one.
+std::vector<Eigen::Matrix3d> corner_normals(
+    const TriangleMesh& mesh, const std::vector<TriangleMesh::VertexHandle>& first_vertex,
+    double feature_angle_deg) {
+  const double least = std::cos(feature_angle_deg * std::numbers::pi / 180);
+  std::vector<Eigen::Matrix3d> normals(mesh.n_faces());
+  for (const auto f : mesh.faces()) {
+    auto h = mesh.halfedge_handle(f);
+    while (mesh.from_vertex_handle(h) != first_vertex[f.idx()]) h = mesh.next_halfedge_handle(h);
+    for (int corner = 0; corner < 3; ++corner, h = mesh.next_halfedge_handle(h)) {
+      const auto v = mesh.from_vertex_handle(h);
+      OpenMesh::Vec3d sum(0, 0, 0);
+      for (auto out = mesh.cvoh_iter(v); out.is_valid(); ++out) {
+        if (mesh.is_boundary(*out)) continue;
+        const OpenMesh::Vec3d normal = mesh.normal(mesh.face_handle(*out));
+        if ((normal | mesh.normal(f)) < least) continue;
+        const auto before = mesh.from_vertex_handle(mesh.prev_halfedge_handle(*out));
+        const OpenMesh::Vec3d a = mesh.point(mesh.to_vertex_handle(*out)) - mesh.point(v);
+        const OpenMesh::Vec3d b = mesh.point(before) - mesh.point(v);
+        sum += normal * std::atan2((a % b).norm(), a | b);
+      }
+      normals[f.idx()].col(corner) = to_eigen(sum.norm() > 0 ? sum.normalized() : mesh.normal(f));
+    }
+  }
+  return normals;
+}
+
+TriangleIndex::TriangleIndex(const Eigen::Matrix3Xd& points,
+                             const std::vector<std::array<int, 3>>& triangles,
+                             const Eigen::Vector3d& centre)
+    : device_(rtcNewDevice("threads=1")), scene_(rtcNewScene(device_)) {
+  RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+  auto* p = static_cast<float*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), points.cols()));
+  for (Eigen::Index v = 0; v < points.cols(); ++v) {
+    for (int k = 0; k < 3; ++k) p[3 * v + k] = static_cast<float>(points(k, v) - centre[k]);
+  }
+  auto* t = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0,
+                                                           RTC_FORMAT_UINT3, 3 * sizeof(unsigned),
+                                                           triangles.size()));
+  for (const auto& triangle : triangles) {
+    for (int v : triangle) *t++ = static_cast<unsigned>(v);
+  }
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(scene_, geometry);
+  rtcReleaseGeometry(geometry);
+  rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_HIGH);
+  rtcCommitScene(scene_);
+}
+
+}  // namespace
+
+struct ReferenceSurface::Impl {
+  Impl(Eigen::Matrix3Xd p, std::vector<std::array<int, 3>> t, double feature_angle_deg)
+      : points((check(p, t), std::move(p))),
+        triangles(std::move(t)),
+        lower(points.rowwise().minCoeff()),
+        upper(points.rowwise().maxCoeff()),
+        centre((lower + upper) / 2),
+        diagonal((upper - lower).norm()),
+        mesh(make_triangle_mesh(points, triangles, first_vertex)),
+        normals(corner_normals(mesh, first_vertex, feature_angle_deg)),
+        index(points, triangles, centre) {}
+
+  SurfacePoint query(const Eigen::Vector3d& p, const Eigen::Vector3d* hint, double reach) const;
+
+  Eigen::Matrix3Xd points;
+  std::vector<std::array<int, 3>> triangles;
+  Eigen::Vector3d lower, upper, centre;
+  double diagonal;
+  std::vector<TriangleMesh::VertexHandle> first_vertex;  // of every face
+  TriangleMesh mesh;
+  std::vector<Eigen::Matrix3d> normals;  // of the corners, as columns
+  TriangleIndex index;
+};
+
+namespace {
+
+/// The state of one query while Embree offers triangles.
+struct Search {
+  const Eigen::Matrix3Xd& points;
+  const std::vector<std::array<int, 3>>& triangles;
+  const TriangleMesh& mesh;
+  Eigen::Vector3d p;
+  const Eigen::Vector3d* hint;
+  double slack;    // bounds the rounding of the index, model units
+  double squared;  // of the best distance so far
+  int triangle = -1;
+  TrianglePoint best{};
+};
+
+float radius_of(const Search& s) {
+  return static_cast<float>(std::sqrt(s.squared) * (1 + 1e-6) + s.slack);
+}
+
+bool offer_triangle(RTCPointQueryFunctionArguments* args) {
+  Search& s = *static_cast<Search*>(args->userPtr);
+  const int id = static_cast<int>(args->primID);
+  if (s.hint && to_eigen(s.mesh.normal(TriangleMesh::FaceHandle(id))).dot(*s.hint) <= 0)
+    return false;
+  const auto& t = s.triangles[id];
+  const TrianglePoint q =
+      closest_point(s.p, s.points.col(t[0]), s.points.col(t[1]), s.points.col(t[2]));
+  const double squared = (q.point - s.p).squaredNorm();
+  if (squared > s.squared || (squared == s.squared && s.triangle >= 0 && id > s.triangle))
+    return false;
+  s.squared = squared;
+  s.triangle = id;
+  s.best = q;
+  args->query->radius = radius_of(s);
+  return true;
+}
+
+}  // namespace
+
+SurfacePoint ReferenceSurface::Impl::query(const Eigen::Vector3d& p, const Eigen::Vector3d* hint,
+                                           double reach) const {
+  const Eigen::Vector3d local = p - centre;
+  Search search{points, triangles, mesh, p, hint, 1e-6 * (diagonal + local.norm()), reach * reach};
+  RTCPointQuery query;
+  query.x = static_cast<float>(local[0]);
+  query.y = static_cast<float>(local[1]);
+  query.z = static_cast<float>(local[2]);
+  query.time = 0;
+  query.radius = radius_of(search);
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  rtcPointQuery(index.scene(), &query, &context, offer_triangle, &search);
+  SurfacePoint found;
+  if (search.triangle < 0) return found;
+  found.point = search.best.point;
+  found.distance = std::sqrt(search.squared);
+  found.triangle = search.triangle;
+  found.normal = (normals[search.triangle] * search.best.weights).normalized();
+  return found;
+}
+
+ReferenceSurface::ReferenceSurface(Eigen::Matrix3Xd points,
+                                   std::vector<std::array<int, 3>> triangles,
+                                   double feature_angle_deg)
+    : impl_(std::make_shared<const Impl>(std::move(points), std::move(triangles),
+                                         feature_angle_deg)) {}
+
+SurfacePoint ReferenceSurface::closest(const Eigen::Vector3d& p) const {
+  return impl_->query(p, nullptr, std::numeric_limits<double>::infinity());
+}
+
+SurfacePoint ReferenceSurface::closest(const Eigen::Vector3d& p,
+                                       const Eigen::Vector3d& hint) const {
+  const SurfacePoint found = impl_->query(p, &hint, std::numeric_limits<double>::infinity());
+  return found.triangle >= 0 ? found : closest(p);
+}
+
+SurfacePoint ReferenceSurface::closest_within(const Eigen::Vector3d& p, double reach) const {
+  return impl_->query(p, nullptr, reach);
+}
+
+const Eigen::Matrix3Xd& ReferenceSurface::points() const { return impl_->points; }
+const std::vector<std::array<int, 3>>& ReferenceSurface::triangles() const {
+  return impl_->triangles;
+}
+double ReferenceSurface::bounding_box_diagonal() const { return impl_->diagonal; }
+Eigen::Vector3d ReferenceSurface::triangle_normal(int triangle) const {
+  return to_eigen(impl_->mesh.normal(TriangleMesh::FaceHandle(triangle)));
+}
+
+ReferenceSurface make_reference_surface(const HexMesh& mesh, double feature_angle_deg) {
+  std::vector<int> id(mesh.vertex_slots(), -1);
+  std::vector<VertexHandle> used;
+  std::vector<std::array<int, 3>> triangles;
+  for (HalfFaceHandle hf : mesh.boundary_halffaces()) {
+    std::array<int, 4> q;
+    for (int i = 0; VertexHandle v : mesh.vertices(hf)) {
+      if (id[v.idx] < 0) {
+        id[v.idx] = static_cast<int>(used.size());
+        used.push_back(v);
+      }
+      q[i++] = id[v.idx];
+    }
+    triangles.push_back({q[0], q[1], q[2]});
+    triangles.push_back({q[2], q[3], q[0]});
+  }
+  Eigen::Matrix3Xd points(3, used.size());
+  for (std::size_t i = 0; i < used.size(); ++i) points.col(i) = mesh.point(used[i]);
+  return ReferenceSurface(std::move(points), std::move(triangles), feature_angle_deg);
+}
+
+}  // namespace hexweft

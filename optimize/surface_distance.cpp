@@ -1,0 +1,231 @@
+#include "optimize/surface_distance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <unordered_map>
+#include <utility>
+
+#include "ovm/errors.h"
+
+namespace hexweft {
+namespace {
+
+QuadPoints points_of(const HexMesh& mesh, HalfFaceHandle hf) {
+  QuadPoints quad;
+  for (int i = 0; VertexHandle v : mesh.vertices(hf)) quad[i++] = mesh.point(v);
+  return quad;
+}
+
+bool on_boundary(const HexMesh& mesh, int side) {
+  return side < 6 * mesh.cell_slots() && mesh.is_live(CellHandle(side / 6)) &&
+         mesh.is_boundary(HalfFaceHandle(side));
+}
+
+/// A grid over the reference's box with cells about the size of its triangles.
+QuadGrid make_grid(const ReferenceSurface& reference) {
+  const auto& p = reference.points();
+  double sum = 0;
+  for (const auto& t : reference.triangles()) sum += (p.col(t[1]) - p.col(t[0])).norm();
+  const double edge = sum / static_cast<double>(reference.triangles().size());
+  const double least = 1e-6 * reference.bounding_box_diagonal() + 1e-300;
+  return QuadGrid(p.rowwise().minCoeff(), p.rowwise().maxCoeff(), std::max(1.5 * edge, least));
+}
+
+}  // namespace
+
+/// Distances of vertices and edge midpoints that several sides share, within one update.
+class SurfaceDistance::VertexAndEdgeCache {
+ public:
+  template <class F>
+  double vertex(VertexHandle v, F&& compute) {
+    return get(2 * static_cast<std::int64_t>(v.idx), compute);
+  }
+  template <class F>
+  double edge(EdgeHandle e, F&& compute) {
+    return get(2 * static_cast<std::int64_t>(e.idx) + 1, compute);
+  }
+
+ private:
+  template <class F>
+  double get(std::int64_t key, F&& compute) {
+    const auto [it, fresh] = known_.try_emplace(key, 0.0);
+    if (fresh) it->second = compute();
+    return it->second;
+  }
+  std::unordered_map<std::int64_t, double> known_;
+};
+
+SurfaceDistance::SurfaceDistance(const HexMesh& mesh, const ReferenceSurface& reference,
+                                 const SurfaceDistanceOptions& options)
+    : reference_(reference), options_(options), grid_(make_grid(reference)) {
+  if (options.mesh_levels < 0 || options.reference_levels < 0) {
+    throw InputError("a number of subdivisions is negative, expected >= 0");
+  }
+  make_samples(options.reference_levels);
+  after_change(mesh);
+  commit();
+}
+
+void SurfaceDistance::make_samples(int levels) {
+  const auto& points = reference_.points();
+  const auto add = [&](const Eigen::Vector3d& p) { samples_.push_back({p, 0, -1}); };
+  for (Eigen::Index v = 0; v < points.cols(); ++v) add(points.col(v));
+  std::set<std::pair<int, int>> edges;
+  for (const auto& t : reference_.triangles()) {
+    for (int i = 0; i < 3; ++i) {
+      const auto edge = std::minmax(t[i], t[(i + 1) % 3]);
+      if (edges.insert(edge).second) add((points.col(edge.first) + points.col(edge.second)) / 2);
+    }
+    add_samples(points.col(t[0]), points.col(t[1]), points.col(t[2]), levels);
+  }
+}
+
+void SurfaceDistance::add_samples(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                                  const Eigen::Vector3d& c, int levels) {
+  samples_.push_back({(a + b + c) / 3, 0, -1});
+  if (levels == 0) return;
+  const Eigen::Vector3d ab = (a + b) / 2, bc = (b + c) / 2, ca = (c + a) / 2;
+  add_samples(a, ab, ca, levels - 1);
+  add_samples(ab, b, bc, levels - 1);
+  add_samples(ca, bc, c, levels - 1);
+  add_samples(ab, bc, ca, levels - 1);
+}
+
+double SurfaceDistance::forward() const {
+  double d = 0;
+  for (double f : forward_) d = std::max(d, f);
+  return d;
+}
+
+double SurfaceDistance::backward() const {
+  double d = 0;
+  for (const Sample& s : samples_) d = std::max(d, s.distance);
+  return d;
+}
+
+std::vector<double> SurfaceDistance::distance_by_halfface() const {
+  std::vector<double> d = forward_;
+  for (const Sample& s : samples_) d[s.side] = std::max(d[s.side], s.distance);
+  return d;
+}
+
+double SurfaceDistance::distance_of_part(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                                         const Eigen::Vector3d& c, int levels) const {
+  double d = reference_.closest((a + b + c) / 3).distance;
+  if (levels == 0) return d;
+  const Eigen::Vector3d ab = (a + b) / 2, bc = (b + c) / 2, ca = (c + a) / 2;
+  for (const Eigen::Vector3d* p : {&ab, &bc, &ca}) d = std::max(d, reference_.closest(*p).distance);
+  return std::max({d, distance_of_part(a, ab, ca, levels - 1),
+                   distance_of_part(ab, b, bc, levels - 1), distance_of_part(ca, bc, c, levels - 1),
+                   distance_of_part(ab, bc, ca, levels - 1)});
+}
+
+double SurfaceDistance::forward_distance(const HexMesh& mesh, int side,
+                                         VertexAndEdgeCache& cache) const {
+  const HalfFaceHandle hf(side);
+  const QuadPoints& q = grid_.points(side);
+  const auto at = [&](const Eigen::Vector3d& p) { return reference_.closest(p).distance; };
+  const auto vertices = mesh.vertices(hf);
+  const auto edges = mesh.edges(hf);
+  double d = at((q[0] + q[2]) / 2);
+  for (int i = 0; i < 4; ++i) {
+    d = std::max(d, cache.vertex(vertices[i], [&] { return at(q[i]); }));
+    d = std::max(d, cache.edge(edges[i], [&] { return at((q[i] + q[(i + 1) % 4]) / 2); }));
+  }
+  d = std::max(d, distance_of_part(q[0], q[1], q[2], options_.mesh_levels));
+  return std::max(d, distance_of_part(q[2], q[3], q[0], options_.mesh_levels));
+}
+
+/// Brings the grid up to date. \return whether the side changed
+bool SurfaceDistance::update_side(const HexMesh& mesh, int side) {
+  const bool before = grid_.contains(side), now = on_boundary(mesh, side);
+  if (!before && !now) return false;
+  QuadPoints points{};
+  if (now) points = points_of(mesh, HalfFaceHandle(side));
+  if (before && now && points == grid_.points(side)) return false;
+  side_undo_.push_back({side, before, before ? grid_.points(side) : QuadPoints{}, forward_[side]});
+  if (before) grid_.remove(side);
+  if (now) grid_.insert(side, points);
+  forward_[side] = 0;
+  return true;
+}
+
+double SurfaceDistance::after_change(const HexMesh& mesh, double limit) {
+  const int n = std::max<int>(6 * mesh.cell_slots(), static_cast<int>(forward_.size()));
+  forward_.resize(n, 0);
+  std::vector<int> changed;
+  for (int side = 0; side < n; ++side) {
+    if (update_side(mesh, side)) changed.push_back(side);
+  }
+  return update(mesh, changed, limit);
+}
+
+double SurfaceDistance::after_change(const HexMesh& mesh, std::span<const CellHandle> touched,
+                                     double limit) {
+  forward_.resize(std::max<std::size_t>(6 * mesh.cell_slots(), forward_.size()), 0);
+  std::vector<int> changed;
+  for (CellHandle c : touched) {
+    for (int side = 6 * c.idx; side < 6 * c.idx + 6; ++side) {
+      if (update_side(mesh, side)) changed.push_back(side);
+    }
+  }
+  return update(mesh, changed, limit);
+}
+
+double SurfaceDistance::update(const HexMesh& mesh, const std::vector<int>& changed, double limit) {
+  VertexAndEdgeCache cache;
+  for (int side : changed) {
+    if (!grid_.contains(side)) continue;
+    forward_[side] = forward_distance(mesh, side, cache);
+    if (forward_[side] > limit) {
+      given_up_ = true;
+      return forward_[side];
+    }
+  }
+  const double worst = update_samples(changed, limit);
+  return given_up_ ? worst : distance();
+}
+
+double SurfaceDistance::update_samples(const std::vector<int>& changed, double limit) {
+  std::vector<char> dirty(forward_.size(), 0);
+  for (int side : changed) dirty[side] = 1;
+  for (int i = 0; i < static_cast<int>(samples_.size()); ++i) {
+    Sample& s = samples_[i];
+    if (s.side >= 0 && !dirty[s.side]) continue;
+    const int guess = s.side >= 0 && grid_.contains(s.side) ? s.side : -1;
+    const QuadGrid::Nearest nearest = grid_.nearest(s.point, guess);
+    sample_undo_.push_back({i, s.side, s.distance});
+    s.side = nearest.id;
+    s.distance = std::sqrt(nearest.squared_distance);
+    if (s.distance > limit) {
+      given_up_ = true;
+      return s.distance;
+    }
+  }
+  return 0;
+}
+
+void SurfaceDistance::commit() {
+  if (given_up_)
+    throw InputError("a change whose distance was not computed to the end was committed");
+  side_undo_.clear();
+  sample_undo_.clear();
+}
+
+void SurfaceDistance::rollback() {
+  for (auto it = side_undo_.rbegin(); it != side_undo_.rend(); ++it) {
+    if (grid_.contains(it->side)) grid_.remove(it->side);
+    if (it->present) grid_.insert(it->side, it->points);
+    forward_[it->side] = it->forward;
+  }
+  for (auto it = sample_undo_.rbegin(); it != sample_undo_.rend(); ++it) {
+    samples_[it->sample].side = it->side;
+    samples_[it->sample].distance = it->distance;
+  }
+  side_undo_.clear();
+  sample_undo_.clear();
+  given_up_ = false;
+}
+
+}  // namespace hexweft

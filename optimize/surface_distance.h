@@ -1,0 +1,97 @@
+/// \file
+/// The two-sided distance between a mesh's boundary and a reference, kept current through local
+/// edits.
+///
+///     SurfaceDistance distance(mesh, reference);
+///     Transaction trial(mesh);
+///     ...edit the mesh...
+///     if (distance.after_change(mesh, limit) <= limit) { trial.commit(); distance.commit(); }
+///     else distance.rollback();
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "optimize/quad_grid.h"
+#include "optimize/reference_surface.h"
+#include "ovm/hex_mesh.h"
+
+namespace hexweft {
+
+/// Sample density, a compromise between a trial's cost and what it can miss. The samples are the
+/// corners, edge midpoints and centroids of triangles, of their four parts too with more levels.
+struct SurfaceDistanceOptions {
+  int mesh_levels = 0;       ///< ≥ 0, subdivisions of a boundary triangle of the mesh
+  int reference_levels = 0;  ///< ≥ 0, subdivisions of a triangle of the reference
+};
+
+/// Holds, for every boundary side of the mesh, its samples' largest distance to the reference, and
+/// for every sample of the reference the nearest side. A change recomputes the sides it moved, and
+/// the samples whose nearest side moved or went away. A sample whose nearest side stays keeps its
+/// distance, even if another side has come nearer: the result is never below the truth on the
+/// samples.
+class SurfaceDistance {
+ public:
+  SurfaceDistance(const HexMesh& mesh, const ReferenceSurface& reference,
+                  const SurfaceDistanceOptions& options = {});
+
+  double forward() const;   ///< model units, from the mesh to the reference
+  double backward() const;  ///< model units, from the reference to the mesh
+  double distance() const { return std::max(forward(), backward()); }
+  double ratio() const { return distance() / reference_.bounding_box_diagonal(); }
+
+  /// Distance of one boundary side's samples to the reference, and of the reference's samples
+  /// nearest to it; model units. 0 for a half-face that is not on the boundary.
+  std::vector<double> distance_by_halfface() const;  ///< indexed by half-face
+
+  /// Brings the distances up to the mesh as it is now; until commit() they can be rolled back.
+  /// Looks at every side of the mesh. Gives up as soon as a sample is farther than `limit` (model
+  /// units) and returns that sample's distance; then only rollback() is allowed.
+  double after_change(const HexMesh& mesh, double limit = std::numeric_limits<double>::infinity());
+  /// The same where only sides of these cells, alive or deleted, can have changed.
+  double after_change(const HexMesh& mesh, std::span<const CellHandle> touched,
+                      double limit = std::numeric_limits<double>::infinity());
+  void commit();    ///< \throws InputError after a change that was given up
+  void rollback();  ///< to the last commit; the mesh must be rolled back by its transaction
+
+  const ReferenceSurface& reference() const { return reference_; }
+
+ private:
+  struct Sample {
+    Eigen::Vector3d point;
+    double distance;
+    int side;  // nearest half-face
+  };
+  struct SideUndo {
+    int side;
+    bool present;
+    QuadPoints points;
+    double forward;
+  };
+  struct SampleUndo {
+    int sample, side;
+    double distance;
+  };
+  class VertexAndEdgeCache;
+
+  void make_samples(int levels);
+  void add_samples(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
+                   int levels);
+  bool update_side(const HexMesh& mesh, int side);
+  double forward_distance(const HexMesh& mesh, int side, VertexAndEdgeCache& cache) const;
+  double distance_of_part(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                          const Eigen::Vector3d& c, int levels) const;
+  double update(const HexMesh& mesh, const std::vector<int>& changed, double limit);
+  double update_samples(const std::vector<int>& changed, double limit);
+
+  ReferenceSurface reference_;
+  SurfaceDistanceOptions options_;
+  std::vector<Sample> samples_;
+  QuadGrid grid_;                // boundary sides by half-face
+  std::vector<double> forward_;  // by half-face; 0 where not on the boundary
+  std::vector<SideUndo> side_undo_;
+  std::vector<SampleUndo> sample_undo_;
+  bool given_up_ = false;
+};
+
+}  // namespace hexweft
