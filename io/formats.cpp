@@ -1,0 +1,38 @@
+#include "io/formats.h"
+
+#include <algorithm>
+#include <array>
+
+#include "io/medit.h"
+#include "io/text_scanner.h"
+#include "io/vtk_legacy.h"
+
+namespace hexweft {
+
+std::span<const Format> formats() {
+  static constexpr std::array<Format, 2> kFormats{{
+      {"vtk", ".vtk", "legacy VTK, text or binary, with point and cell data", true, is_vtk_legacy,
+       read_vtk_legacy, write_vtk_legacy},
+      {"medit", ".mesh", "Medit, text, with references", false, is_medit, read_medit, write_medit},
+  }};
+  return kFormats;
+}
+
+const Format& format_named(std::string_view name) {
+  std::string names;
+  for (const Format& format : formats()) {
+    if (format.name == name) return format;
+    names += (names.empty() ? "" : ", ") + std::string(format.name);
+  }
+  throw InputError("format = \"" + std::string(name) + "\", expected one of " + names);
+}
+
+const Format* format_of_extension(const std::filesystem::path& path) {
+  const std::string extension = detail::lower_case(path.extension().string());
+  for (const Format& format : formats()) {
+    if (format.extension == extension) return &format;
+  }
+  return nullptr;
+}
+
+}  // namespace hexweft

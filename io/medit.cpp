@@ -1,0 +1,268 @@
+#include "io/medit.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "io/number_text.h"
+#include "io/text_scanner.h"
+
+namespace hexweft {
+namespace {
+
+using namespace detail;
+
+struct Section {
+  std::string_view name;
+  int row;        ///< numbers a row
+  bool is_solid;  ///< cells that a hex mesh cannot hold
+};
+
+constexpr std::array<Section, 23> kOtherSections{{
+    {"Edges", 3, false},
+    {"Triangles", 4, false},
+    {"Quadrilaterals", 5, false},
+    {"Tetrahedra", 5, true},
+    {"Pyramids", 6, true},
+    {"Prisms", 7, true},
+    {"Pentahedra", 7, true},
+    {"Corners", 1, false},
+    {"Ridges", 1, false},
+    {"RequiredVertices", 1, false},
+    {"RequiredEdges", 1, false},
+    {"RequiredTriangles", 1, false},
+    {"RequiredQuadrilaterals", 1, false},
+    {"TangentAtEdges", 3, false},
+    {"NormalAtVertices", 2, false},
+    {"NormalAtTriangleVertices", 3, false},
+    {"NormalAtQuadrilateralVertices", 3, false},
+    {"TangentAtVertices", 2, false},
+    {"AngleOfCornerBound", 1, false},
+    {"Normals", 3, false},
+    {"Tangents", 3, false},
+    {"SubDomainFromGeom", 4, false},
+    {"SubDomainFromMesh", 4, false},
+}};
+
+class MeditReader {
+ public:
+  MeditReader(std::string_view text, const std::string& path) : in_(text, path) {}
+
+  MeshData read() {
+    read_header();
+    while (!in_.at_end() && lower_case(in_.peek()) != "end") read_section();
+    if (!have_vertices_) in_.fail_expected("Vertices");
+    if (data_.cells.empty()) in_.fail_expected("Hexahedra");
+    check_cells();
+    add_references(data_.point_data, std::move(point_references_));
+    add_references(data_.cell_data, std::move(cell_references_));
+    return std::move(data_);
+  }
+
+ private:
+  void read_header();
+  void read_section();
+  void read_vertices();
+  void read_hexahedra();
+  void check_cells();
+  void skip_section(const Section& section);
+  void add_references(std::vector<DataArray>& arrays, std::vector<std::int64_t> references);
+
+  std::int64_t read_count(std::string_view section, std::int64_t most) {
+    std::int64_t n;
+    if (!in_.read(n)) in_.fail_expected("the number of " + std::string(section));
+    if (n < 0 || n > most) {
+      in_.fail(section_, std::string(section) + ": expected a number in [0, " +
+                             std::to_string(most) + "], found " + std::to_string(n));
+    }
+    return n;
+  }
+  std::size_t room_for(std::int64_t n, int numbers) const {  // a lying count must not cost memory
+    return std::min<std::size_t>(n, in_.remaining() / (2 * numbers) + 1);
+  }
+  std::int64_t read_reference(const char* of, std::int64_t i) {
+    std::int64_t reference;
+    if (!in_.read(reference))
+      in_.fail_expected("the reference (an integer) of " + std::string(of) + " " +
+                        std::to_string(i + 1));
+    return reference;
+  }
+
+  TextScanner in_;
+  MeshData data_;
+  std::size_t section_ = 0, first_hexahedron_ = 0;
+  bool have_vertices_ = false, have_hexahedra_ = false;
+  std::vector<std::int64_t> point_references_, cell_references_;
+};
+
+void MeditReader::read_header() {
+  if (lower_case(in_.peek()) != "meshversionformatted") in_.fail_expected("MeshVersionFormatted");
+  in_.next();
+  std::int64_t version;
+  if (!in_.read(version) || version < 1 || version > 4) in_.fail_expected("a version from 1 to 4");
+}
+
+void MeditReader::read_section() {
+  const std::string keyword = lower_case(in_.peek());
+  section_ = in_.offset();
+  if (keyword == "dimension") {
+    in_.next();
+    std::int64_t dimension;
+    const std::size_t before = in_.offset();
+    if (!in_.read(dimension) || dimension != 3) {
+      in_.seek(before);
+      in_.fail_expected("dimension 3");
+    }
+    return;
+  }
+  if (keyword == "vertices") return read_vertices();
+  if (keyword == "hexahedra") return read_hexahedra();
+  for (const Section& section : kOtherSections) {
+    if (lower_case(section.name) == keyword) return skip_section(section);
+  }
+  in_.fail_expected("a section of a Medit file");
+}
+
+void MeditReader::read_vertices() {
+  in_.next();
+  if (have_vertices_) in_.fail(section_, "Vertices appears twice");
+  have_vertices_ = true;
+  const std::int64_t n = read_count("Vertices", std::numeric_limits<int>::max() / 2);
+  data_.points.reserve(room_for(n, 4));
+  point_references_.reserve(room_for(n, 4));
+  for (std::int64_t i = 0; i < n; ++i) {
+    Eigen::Vector3d p;
+    for (double& x : p) {
+      const std::size_t before = in_.offset();
+      if (!in_.read(x) || !std::isfinite(x)) {
+        in_.seek(before);
+        in_.fail_expected("a finite coordinate of vertex " + std::to_string(i + 1) + " of " +
+                          std::to_string(n));
+      }
+    }
+    data_.points.push_back(p);
+    point_references_.push_back(read_reference("vertex", i));
+  }
+}
+
+void MeditReader::read_hexahedra() {
+  in_.next();
+  if (have_hexahedra_) in_.fail(section_, "Hexahedra appears twice");
+  have_hexahedra_ = true;
+  const std::int64_t n = read_count("Hexahedra", std::numeric_limits<int>::max() / 12);
+  first_hexahedron_ = in_.offset();
+  data_.cells.reserve(room_for(n, 9));
+  cell_references_.reserve(room_for(n, 9));
+  for (std::int64_t i = 0; i < n; ++i) {
+    std::array<int, 8> cell;
+    for (int& corner : cell) {
+      std::int64_t v;
+      const std::size_t before = in_.offset();
+      if (!in_.read(v) || v < 1 || v > std::numeric_limits<int>::max()) {
+        in_.seek(before);
+        in_.fail_expected("a vertex number, 1 or more, of hexahedron " + std::to_string(i + 1) +
+                          " of " + std::to_string(n));
+      }
+      corner = static_cast<int>(v - 1);
+    }
+    data_.cells.push_back(cell);
+    cell_references_.push_back(read_reference("hexahedron", i));
+  }
+}
+
+// After all sections are read: Hexahedra may come before Vertices.
+void MeditReader::check_cells() {
+  hexweft::check_cells(data_, 1, [&](int cell, const std::string& problem) {
+    in_.seek(first_hexahedron_);
+    for (int i = 0; i < 9 * cell; ++i) in_.next();
+    in_.peek();
+    in_.fail(in_.offset(), "hexahedron " + std::to_string(cell + 1) + " " + problem);
+  });
+}
+
+void MeditReader::skip_section(const Section& section) {
+  in_.next();
+  const std::int64_t n = read_count(section.name, std::numeric_limits<int>::max());
+  if (section.is_solid && n > 0) {
+    in_.fail(section_, "expected Hexahedra alone, found " + std::to_string(n) + " " +
+                           std::string(section.name));
+  }
+  for (std::int64_t i = 0; i < n * section.row; ++i) {
+    double number;
+    if (!in_.read(number)) {
+      in_.fail_expected("a number (" + std::to_string(i + 1) + " of " +
+                        std::to_string(n * section.row) + " of " + std::string(section.name) + ")");
+    }
+  }
+  if (n > 0) {
+    data_.notes.push_back(std::to_string(n) + " " + std::string(section.name) + " were left out");
+  }
+}
+
+void MeditReader::add_references(std::vector<DataArray>& arrays,
+                                 std::vector<std::int64_t> references) {
+  if (std::all_of(references.begin(), references.end(), [](auto r) { return r == 0; })) return;
+  DataArray array;
+  array.name = kMeditReference;
+  array.kind = ValueKind::integer;
+  array.integers = std::move(references);
+  arrays.push_back(std::move(array));
+}
+
+// The references, or zeros; other properties have no place in the file.
+template <class Tag>
+std::vector<std::int64_t> references(const HexMesh& mesh, std::size_t n,
+                                     std::vector<std::string>& notes) {
+  std::vector<std::int64_t> result(n, 0);
+  for (DataArray& array : property_arrays<Tag>(mesh, notes)) {
+    if (array.name == kMeditReference && array.kind == ValueKind::integer &&
+        array.components == 1) {
+      result = std::move(array.integers);
+    } else {
+      notes.push_back("property \"" + array.name + "\" was left out: Medit has no place for it");
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+bool is_medit(std::string_view text) {
+  return lower_case(TextScanner(text, "").peek()) == "meshversionformatted";
+}
+
+MeshData read_medit(std::string_view text, const std::string& path) {
+  return MeditReader(text, path).read();
+}
+
+void write_medit(const HexMesh& mesh, const WriteOptions& options, std::string& out,
+                 std::vector<std::string>& notes) {
+  const auto vertex_refs = references<VertexTag>(mesh, mesh.n_vertices(), notes);
+  const auto cell_refs = references<CellTag>(mesh, mesh.n_cells(), notes);
+  out +=
+      "MeshVersionFormatted 2\nDimension 3\nVertices\n" + std::to_string(mesh.n_vertices()) + '\n';
+  int row = 0;
+  for (VertexHandle v : mesh.vertices()) {
+    for (double x : mesh.point(v)) {
+      append_number(out, x, options.precision);
+      out += ' ';
+    }
+    append_number(out, vertex_refs[row++]);
+    out += '\n';
+  }
+  out += "Hexahedra\n" + std::to_string(mesh.n_cells()) + '\n';
+  const std::vector<int> number = vertex_numbers(mesh);
+  row = 0;
+  for (CellHandle c : mesh.cells()) {
+    for (VertexHandle v : mesh.vertices(c)) {
+      append_number(out, number[v.idx] + 1);
+      out += ' ';
+    }
+    append_number(out, cell_refs[row++]);
+    out += '\n';
+  }
+  out += "End\n";
+}
+
+}  // namespace hexweft

@@ -1,0 +1,43 @@
+/// \file
+/// What a format reader gives: the file's points, hexahedra and data, before they are a mesh.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "io/data_array.h"
+#include "ovm/hex_mesh.h"
+
+namespace hexweft {
+
+struct MeshData {
+  std::vector<Eigen::Vector3d> points;
+  std::vector<std::array<int, 8>> cells;  ///< indices into points, corners in VTK order
+  std::vector<DataArray> point_data;      ///< a row each point
+  std::vector<DataArray> cell_data;       ///< a row each cell
+  std::vector<std::string> notes;         ///< what the file had that the mesh does not
+};
+
+/// Appends the array unless one of its name is there already, which is noted.
+void add_array(std::vector<DataArray>& arrays, DataArray array, std::vector<std::string>& notes);
+
+/// Keeps these rows, in ascending order.
+void keep_rows(DataArray& array, const std::vector<int>& rows);
+
+/// Calls `fail(cell, problem)`, which throws, at the first cell that no mesh can hold: an index out
+/// of range or given twice, or a vertex crowded by more cells than any real mesh has. \param base
+/// what the file calls its first vertex, 0 or 1; for the message
+void check_cells(const MeshData& data, int base,
+                 const std::function<void(int cell, const std::string& problem)>& fail);
+
+/// Builds the mesh; points and cells keep the file's order. Where *every* cell has a negative
+/// volume the file numbers its corners mirrored, and they are turned into VTK order; a mix stays as
+/// it is. \param keep_isolated_vertices  points that no cell uses: kept, or left out and counted in
+/// `notes` \pre check_cells finds nothing
+HexMesh build_hex_mesh(MeshData data, bool keep_isolated_vertices, std::vector<std::string>& notes);
+
+}  // namespace hexweft

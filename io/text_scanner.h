@@ -1,0 +1,67 @@
+/// \file
+/// Reads blank-separated words and numbers of a text held in memory, and says where it went wrong.
+#pragma once
+
+#include <algorithm>
+#include <charconv>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace hexweft::detail {
+
+/// A cursor over the text of a file. `#` at the start of a word begins a comment that runs to the
+/// end of its line. Lines are counted only when an error is reported.
+class TextScanner {
+ public:
+  TextScanner(std::string_view text, std::string path) : text_(text), path_(std::move(path)) {}
+
+  std::size_t offset() const { return at_; }
+  void seek(std::size_t offset) { at_ = offset; }
+  std::size_t remaining() const { return text_.size() - at_; }
+  std::string_view text() const { return text_; }
+
+  /// True when only blanks and comments are left, which are skipped.
+  bool at_end() {
+    skip_blanks();
+    return at_ == text_.size();
+  }
+  std::string_view peek();  ///< the next word without moving past it; empty at the end
+  std::string_view next();  ///< the next word; empty at the end
+  /// What is left of the line, without its blanks at either end; the cursor moves to the next line.
+  std::string_view rest_of_line();
+
+  /// Reads a number. False, without moving past it, when the next word is none or does not fit.
+  /// Reals too large for a double become infinite, too small ones zero.
+  bool read(std::int64_t& value);
+  bool read(double& value);
+
+  /// \throws FormatError "path:line: message", the line being that of the offset
+  [[noreturn]] void fail(std::size_t offset, const std::string& message) const;
+  /// \throws FormatError "path:line: expected <what>, found <the next word>"
+  [[noreturn]] void fail_expected(const std::string& what);
+
+ private:
+  static bool is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+  void skip_blanks() {
+    for (; at_ < text_.size(); ++at_) {
+      if (is_blank(text_[at_])) continue;
+      if (text_[at_] != '#') return;
+      at_ = std::min(text_.find('\n', at_), text_.size() - 1);
+    }
+  }
+  bool ends_word(const char* p) const { return p == text_.data() + text_.size() || is_blank(*p); }
+
+  std::string_view text_;
+  std::string path_;
+  std::size_t at_ = 0;
+};
+
+/// A copy in lower case (ASCII letters only).
+std::string lower_case(std::string_view word);
+
+/// A word of a file as it may stand in a message: quoted, cut at 40 characters, printable.
+std::string quoted(std::string_view word);
+
+}  // namespace hexweft::detail

@@ -1,0 +1,151 @@
+#include "io/vtk_values.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+#include <limits>
+
+namespace hexweft::detail {
+namespace {
+
+// vtkIdType is written as 32 bits whatever the writer's own width is.
+constexpr std::array<VtkType, 15> kTypes{{
+    {"bit", ValueKind::bit, 0, false},
+    {"char", ValueKind::integer, 1, true},
+    {"signed_char", ValueKind::integer, 1, true},
+    {"unsigned_char", ValueKind::integer, 1, false},
+    {"short", ValueKind::integer, 2, true},
+    {"unsigned_short", ValueKind::integer, 2, false},
+    {"int", ValueKind::integer, 4, true},
+    {"unsigned_int", ValueKind::integer, 4, false},
+    {"long", ValueKind::integer, 8, true},
+    {"unsigned_long", ValueKind::integer, 8, false},
+    {"vtkidtype", ValueKind::integer, 4, true},
+    {"vtktypeint64", ValueKind::integer, 8, true},
+    {"vtktypeuint64", ValueKind::integer, 8, false},
+    {"float", ValueKind::real, 4, true},
+    {"double", ValueKind::real, 8, true},
+}};
+
+std::uint64_t load_big_endian(const char* p, int bytes) {
+  std::uint64_t value = 0;
+  for (int i = 0; i < bytes; ++i) value = value << 8 | static_cast<unsigned char>(p[i]);
+  return value;
+}
+
+double load_real(const char* p, int bytes) {
+  const std::uint64_t bits = load_big_endian(p, bytes);
+  return bytes == 4 ? std::bit_cast<float>(static_cast<std::uint32_t>(bits))
+                    : std::bit_cast<double>(bits);
+}
+
+std::int64_t load_integer(const char* p, const VtkType& type) {
+  const int unused_bits = 64 - 8 * type.bytes;
+  const std::uint64_t high = load_big_endian(p, type.bytes) << unused_bits;
+  return type.is_signed ? static_cast<std::int64_t>(high) >> unused_bits
+                        : static_cast<std::int64_t>(high >> unused_bits);
+}
+
+DataArray read_binary(TextScanner& in, const VtkBlock& block, const VtkType& type,
+                      std::size_t count) {
+  const std::size_t per_byte = type.bytes == 0 ? 8 : 1, width = std::max(type.bytes, 1);
+  const std::size_t available = in.remaining() / width;  // the division cannot overflow
+  if ((count + per_byte - 1) / per_byte > available) {
+    in.fail(block.header, block.title + ": expected " + std::to_string(count) +
+                              " numbers of type " + std::string(type.name) + ", found " +
+                              std::to_string(available * per_byte) + " to the end of the file");
+  }
+  const char* p = in.text().data() + in.offset();
+  DataArray array;
+  array.kind = type.kind;
+  if (type.kind == ValueKind::real) {
+    array.reals.resize(count);
+    for (std::size_t i = 0; i < count; ++i) array.reals[i] = load_real(p + i * width, type.bytes);
+  } else {
+    array.integers.resize(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      array.integers[i] = type.kind == ValueKind::bit ? p[i / 8] >> (7 - i % 8) & 1
+                                                      : load_integer(p + i * width, type);
+      if (!type.is_signed && array.integers[i] < 0) {
+        in.fail(block.header, block.title + ": number " + std::to_string(i) + " is beyond 2^63");
+      }
+    }
+  }
+  in.seek(in.offset() + (count + per_byte - 1) / per_byte * width);
+  return array;
+}
+
+template <class T>
+std::vector<T> read_text(TextScanner& in, const VtkBlock& block, std::size_t count) {
+  std::vector<T> values;
+  values.reserve(std::min(count, in.remaining() / 2 + 1));  // a lying count must not cost memory
+  for (std::size_t i = 0; i < count; ++i) {
+    T value;
+    if (!in.read(value)) {
+      in.fail_expected(std::string(std::is_same_v<T, double> ? "a number" : "an integer") + " (" +
+                       std::to_string(i + 1) + " of " + std::to_string(count) + " of " +
+                       block.title + ")");
+    }
+    values.push_back(value);
+  }
+  return values;
+}
+
+}  // namespace
+
+std::optional<VtkType> find_vtk_type(std::string_view name) {
+  const std::string lower = lower_case(name);
+  for (const VtkType& type : kTypes) {
+    if (type.name == lower) return type;
+  }
+  return std::nullopt;
+}
+
+std::int64_t read_vtk_count(TextScanner& in, const std::string& what, std::int64_t most) {
+  const std::string range = what + " in [0, " + std::to_string(most) + "]";
+  const std::size_t before = (in.peek(), in.offset());
+  std::int64_t n;
+  if (!in.read(n)) in.fail_expected(range);
+  if (n < 0 || n > most) {
+    in.seek(before);
+    in.fail_expected(range);
+  }
+  return n;
+}
+
+DataArray read_vtk_values(TextScanner& in, const VtkBlock& block, const VtkType& type,
+                          std::size_t count) {
+  if (block.binary) return read_binary(in, block, type, count);
+  DataArray array;
+  array.kind = type.kind;
+  if (type.kind == ValueKind::real) {
+    array.reals = read_text<double>(in, block, count);
+  } else {
+    array.integers = read_text<std::int64_t>(in, block, count);
+  }
+  return array;
+}
+
+void fail_at_value(TextScanner in, const VtkBlock& block, std::size_t index,
+                   const std::string& message) {
+  if (block.binary) in.fail(block.header, message);
+  in.seek(block.numbers);
+  for (std::size_t i = 0; i < index; ++i) in.next();
+  in.peek();  // to the start of the number itself
+  in.fail(in.offset(), message);
+}
+
+template <class T>
+void append_big_endian(std::string& out, T value) {
+  char bytes[sizeof(T)];
+  std::memcpy(bytes, &value, sizeof(T));
+  if constexpr (std::endian::native == std::endian::little) std::reverse(bytes, bytes + sizeof(T));
+  out.append(bytes, sizeof(T));
+}
+template void append_big_endian(std::string&, std::uint8_t);
+template void append_big_endian(std::string&, std::int32_t);
+template void append_big_endian(std::string&, std::int64_t);
+template void append_big_endian(std::string&, double);
+
+}  // namespace hexweft::detail
