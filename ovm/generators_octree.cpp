@@ -1,0 +1,250 @@
+// Octree-like meshes: voxels of an implicit shape, a layer under their boundary, drawn onto the
+// surface.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <random>
+
+#include "ovm/detail/guarded_smoothing.h"
+#include "ovm/edit/insert_sheet.h"
+#include "ovm/errors.h"
+#include "ovm/generators.h"
+
+namespace hexweft {
+namespace {
+
+using Eigen::Vector3d;
+
+double torus(const Vector3d& p, double major, double minor) {
+  return std::hypot(std::hypot(p.x(), p.y()) - major, p.z()) - minor;
+}
+
+// Union of two shapes with the seam rounded over the length k.
+double smooth_union(double a, double b, double k) {
+  const double h = std::max(k - std::abs(a - b), 0.0) / k;
+  return std::min(a, b) - h * h * k / 4;
+}
+
+double segment(const Vector3d& p, double half_length, double radius) {
+  const double x = std::clamp(p.x(), -half_length, half_length);
+  return (p - Vector3d(x, 0, 0)).norm() - radius;
+}
+
+double blob(const Vector3d& p, unsigned seed) {
+  std::mt19937_64 random(seed);
+  const auto phase = [&] { return 2 * M_PI * static_cast<double>(random() >> 11) * 0x1p-53; };
+  double bumps = 0;
+  for (int a = 0; a < 3; ++a) {
+    const double along = phase(), across = phase();
+    bumps += std::sin(3 * p[a] + along) * std::cos(2 * p[(a + 1) % 3] + across);
+  }
+  return p.norm() - 0.85 - 0.08 * bumps;
+}
+
+double block_with_hole(const Vector3d& p) {
+  const Vector3d q = p.cwiseAbs() - Vector3d(1, 0.8, 0.5);
+  const double box = q.cwiseMax(0).norm() + std::min(q.maxCoeff(), 0.0);
+  return std::max(box, 0.4 - std::hypot(p.x(), p.y()));
+}
+
+// Half the sides of a box round the shape.
+Vector3d half_extent(Shape shape) {
+  switch (shape) {
+    case Shape::torus:
+      return {1.05, 1.05, 0.4};
+    case Shape::dumbbell:
+      return {1.1, 0.55, 0.55};
+    case Shape::double_torus:
+      return {1.35, 0.8, 0.3};
+    case Shape::block_with_hole:
+      return {1.0, 0.8, 0.5};
+    default:
+      return {1.1, 1.1, 1.1};
+  }
+}
+
+// ---- Voxels ----
+
+// Filled voxels of the 2 × 2 × 2 block below a lattice point, bit x + 2y + 4z.
+unsigned block_mask(const VoxelSet& voxels, int x, int y, int z) {
+  unsigned mask = 0;
+  for (int i = 0; i < 8; ++i) {
+    if (voxels(x - 1 + (i & 1), y - 1 + (i >> 1 & 1), z - 1 + (i >> 2))) mask |= 1u << i;
+  }
+  return mask;
+}
+
+bool is_connected(unsigned mask) {
+  unsigned reached = mask & (~mask + 1);
+  for (int round = 0; round < 8; ++round) {
+    for (int i = 0; i < 8; ++i) {
+      if (reached >> i & 1) reached |= mask & (1u << (i ^ 1) | 1u << (i ^ 2) | 1u << (i ^ 4));
+    }
+  }
+  return reached == mask;
+}
+
+// Filled and empty voxels each hang together, and no axis is crossed by the boundary both ways.
+bool can_carry_layer(unsigned mask) {
+  if (!is_connected(mask) || !is_connected(~mask & 0xffu)) return false;
+  for (int axis = 1; axis < 8; axis *= 2) {
+    bool up = false, down = false;
+    for (int i = 0; i < 8; ++i) {
+      if (i & axis) continue;
+      const bool low = mask >> i & 1, high = mask >> (i | axis) & 1;
+      up |= low && !high;
+      down |= high && !low;
+    }
+    if (up && down) return false;
+  }
+  return true;
+}
+
+bool fill_block(VoxelSet& voxels, int x, int y, int z) {
+  bool changed = false;
+  for (int i = 0; i < 8; ++i) {
+    const int p[3] = {x - 1 + (i & 1), y - 1 + (i >> 1 & 1), z - 1 + (i >> 2)};
+    bool in_set = true;
+    for (int a = 0; a < 3; ++a) in_set &= p[a] >= 0 && p[a] < voxels.size[a];
+    if (!in_set || voxels(p[0], p[1], p[2])) continue;
+    const std::size_t row = p[1] + static_cast<std::size_t>(voxels.size[1]) * p[2];
+    voxels.filled[p[0] + voxels.size[0] * row] = 1;
+    changed = true;
+  }
+  return changed;
+}
+
+// ---- Drawing the boundary onto the surface ----
+
+class SurfaceFitter {
+ public:
+  SurfaceFitter(HexMesh& mesh, Shape shape, unsigned seed)
+      : mesh_(mesh), shape_(shape), seed_(seed), on_boundary_(mesh.vertex_slots(), 0) {
+    for (VertexHandle v : mesh.vertices()) on_boundary_[v.idx] = mesh.is_boundary(v);
+    edge_on_boundary_.resize(mesh.edge_slots());
+    for (EdgeHandle e : mesh.edges()) edge_on_boundary_[e.idx] = mesh.is_boundary(e);
+  }
+
+  void sweep(double floor) {
+    for (VertexHandle v : mesh_.vertices()) {
+      const bool boundary = on_boundary_[v.idx];
+      const Vector3d mean = detail::mean_of_neighbors(
+          mesh_, v, [&](EdgeHandle e) { return !boundary || edge_on_boundary_[e.idx]; });
+      if (!boundary) {
+        detail::move_guarded(mesh_, v, mean, floor);
+        continue;
+      }
+      const Vector3d target = project((mean + mesh_.point(v)) / 2);
+      // Where smoothing is refused, at least draw the vertex to the surface.
+      if (detail::move_guarded(mesh_, v, target, floor) < 1) {
+        detail::move_guarded(mesh_, v, project(mesh_.point(v)), floor);
+      }
+    }
+  }
+
+ private:
+  Vector3d project(Vector3d p) const {
+    for (int i = 0; i < 8; ++i) {
+      const double f = signed_distance_like(shape_, p, seed_);
+      Vector3d gradient;
+      for (int a = 0; a < 3; ++a) {
+        constexpr double h = 1e-5;
+        const Vector3d d = h * Vector3d::Unit(a);
+        gradient[a] = (signed_distance_like(shape_, p + d, seed_) -
+                       signed_distance_like(shape_, p - d, seed_)) /
+                      (2 * h);
+      }
+      if (std::abs(f) < 1e-9 || gradient.squaredNorm() < 1e-6) break;
+      p -= f / gradient.squaredNorm() * gradient;
+    }
+    return p;
+  }
+
+  HexMesh& mesh_;
+  Shape shape_;
+  unsigned seed_;
+  std::vector<char> on_boundary_, edge_on_boundary_;
+};
+
+}  // namespace
+
+std::string_view name(Shape shape) {
+  switch (shape) {
+    case Shape::sphere:
+      return "sphere";
+    case Shape::blob:
+      return "blob";
+    case Shape::torus:
+      return "torus";
+    case Shape::dumbbell:
+      return "dumbbell";
+    case Shape::double_torus:
+      return "double-torus";
+    default:
+      return "block-with-hole";
+  }
+}
+
+double signed_distance_like(Shape shape, const Vector3d& p, unsigned seed) {
+  switch (shape) {
+    case Shape::sphere:
+      return p.norm() - 1;
+    case Shape::blob:
+      return blob(p, seed);
+    case Shape::torus:
+      return torus(p, 0.68, 0.32);
+    case Shape::dumbbell: {
+      const double balls =
+          std::min((p - Vector3d(0.6, 0, 0)).norm(), (p + Vector3d(0.6, 0, 0)).norm()) - 0.45;
+      return smooth_union(balls, segment(p, 0.6, 0.2), 0.2);
+    }
+    case Shape::double_torus:
+      return smooth_union(torus(p - Vector3d(0.58, 0, 0), 0.5, 0.24),
+                          torus(p + Vector3d(0.58, 0, 0), 0.5, 0.24), 0.1);
+    default:
+      return block_with_hole(p);
+  }
+}
+
+void fill_to_manifold(VoxelSet& voxels) {
+  // Only fills, hence ends.
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (int z = 0; z <= voxels.size[2]; ++z) {
+      for (int y = 0; y <= voxels.size[1]; ++y) {
+        for (int x = 0; x <= voxels.size[0]; ++x) {
+          if (can_carry_layer(block_mask(voxels, x, y, z))) continue;
+          changed |= fill_block(voxels, x, y, z);
+        }
+      }
+    }
+  }
+}
+
+HexMesh make_octree_like(Shape shape, int resolution, unsigned seed) {
+  if (resolution < 6) throw InputError("an octree-like mesh needs a resolution of at least 6");
+  const Vector3d half = half_extent(shape);
+  const double h = 2 * half.maxCoeff() / resolution;
+  std::array<int, 3> n;
+  for (int a = 0; a < 3; ++a) n[a] = static_cast<int>(std::ceil(2 * half[a] / h - 1e-9));
+  const Vector3d low = -0.5 * h * Vector3d(n[0], n[1], n[2]);
+  VoxelSet voxels(n, [&](int x, int y, int z) {
+    return signed_distance_like(shape, low + h * Vector3d(x + 0.5, y + 0.5, z + 0.5), seed) < 0;
+  });
+  fill_to_manifold(voxels);
+  HexMesh mesh = make_voxels(voxels);
+  for (VertexHandle v : mesh.vertices()) mesh.set_point(v, low + h * mesh.point(v));
+
+  std::vector<CellHandle> all;
+  for (CellHandle c : mesh.cells()) all.push_back(c);
+  insert_sheet(mesh, all, {.depth_rel = 0.6, .include_boundary = true});
+  mesh.collect_garbage();
+
+  SurfaceFitter fitter(mesh, shape, seed);
+  // A low floor first, so that the boundary reaches the surface; a higher one then evens out.
+  for (double floor : {0.05, 0.05, 0.05, 0.1, 0.1, 0.1, 0.2, 0.2, 0.2, 0.3, 0.3, 0.3})
+    fitter.sweep(floor);
+  return mesh;
+}
+
+}  // namespace hexweft
