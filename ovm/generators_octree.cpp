@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include "ovm/detail/guarded_smoothing.h"
@@ -32,7 +33,9 @@ double segment(const Vector3d& p, double half_length, double radius) {
 
 double blob(const Vector3d& p, unsigned seed) {
   std::mt19937_64 random(seed);
-  const auto phase = [&] { return 2 * M_PI * static_cast<double>(random() >> 11) * 0x1p-53; };
+  const auto phase = [&] {
+    return 2 * std::numbers::pi * static_cast<double>(random() >> 11) * 0x1p-53;
+  };
   double bumps = 0;
   for (int a = 0; a < 3; ++a) {
     const double along = phase(), across = phase();
@@ -142,6 +145,26 @@ class SurfaceFitter {
     }
   }
 
+  // Frees vertices that no mean moves: the best of some steps of about this length.
+  void search(double length) {
+    for (VertexHandle v : mesh_.vertices()) {
+      double best = detail::min_scaled_jacobian_round(mesh_, v);
+      if (best > 0.2) continue;
+      const Vector3d from = mesh_.point(v);
+      Vector3d to = from;
+      for (int i = 0; i < 54; ++i) {
+        const Vector3d direction(i % 3 - 1, i / 3 % 3 - 1, i / 9 % 3 - 1);
+        const Vector3d p = from + (i < 27 ? length : length / 4) * direction;
+        mesh_.set_point(v, on_boundary_[v.idx] ? project(p) : p);
+        const double least = detail::min_scaled_jacobian_round(mesh_, v);
+        if (least <= best) continue;
+        best = least;
+        to = mesh_.point(v);
+      }
+      mesh_.set_point(v, to);
+    }
+  }
+
  private:
   Vector3d project(Vector3d p) const {
     for (int i = 0; i < 8; ++i) {
@@ -241,9 +264,10 @@ HexMesh make_octree_like(Shape shape, int resolution, unsigned seed) {
   mesh.collect_garbage();
 
   SurfaceFitter fitter(mesh, shape, seed);
-  // A low floor first, so that the boundary reaches the surface; a higher one then evens out.
-  for (double floor : {0.05, 0.05, 0.05, 0.1, 0.1, 0.1, 0.2, 0.2, 0.2, 0.3, 0.3, 0.3})
+  for (double floor : {0.2, 0.2, 0.2, 0.2, 0.1, 0.1, 0.05, 0.05, 0.1, 0.1, 0.2, 0.2, 0.3, 0.3}) {
     fitter.sweep(floor);
+    fitter.search(0.3 * h);
+  }
   return mesh;
 }
 

@@ -1,0 +1,75 @@
+#include "ovm/neighborhood.h"
+
+#include <algorithm>
+
+#include "ovm/dual.h"
+
+namespace hexweft {
+
+std::array<HalfEdgeHandle, 4> halfedges(const HexMesh& mesh, HalfFaceHandle hf) {
+  const auto v = mesh.vertices(hf);
+  const auto e = mesh.edges(hf);
+  std::array<HalfEdgeHandle, 4> result;
+  for (int i = 0; i < 4; ++i) {
+    result[i] = HalfEdgeHandle(2 * e[i].idx + (mesh.vertices(e[i])[0] == v[i] ? 0 : 1));
+  }
+  return result;
+}
+
+HalfFaceHandle find_halfface_in_cell(const HexMesh& mesh, CellHandle c, const QuadVertices& quad) {
+  for (HalfFaceHandle hf : mesh.halffaces(c)) {
+    const auto v = mesh.vertices(hf);
+    if (std::is_permutation(v.begin(), v.end(), quad.begin())) return hf;
+  }
+  return HalfFaceHandle();
+}
+
+std::array<CellHandle, 6> neighbors(const HexMesh& mesh, CellHandle c) {
+  std::array<CellHandle, 6> result;
+  for (int s = 0; s < kSides; ++s) result[s] = mesh.cell(mesh.opposite(mesh.halfface(c, s)));
+  return result;
+}
+
+std::vector<VertexHandle> neighbors(const HexMesh& mesh, VertexHandle v) {
+  std::vector<VertexHandle> result;
+  for (EdgeHandle e : mesh.edges(v)) result.push_back(mesh.other_end(e, v));
+  return result;
+}
+
+std::vector<FaceHandle> faces(const HexMesh& mesh, VertexHandle v) {
+  std::vector<FaceHandle> result;
+  const auto cells = mesh.cells(v);
+  for (auto it = cells.begin(); it != cells.end(); ++it) {
+    const auto& x = kCornerCoords[it.slot() % 8];
+    for (int a = 0; a < 3; ++a) result.push_back(mesh.face(side_at(*it, a, x[a])));
+  }
+  std::sort(result.begin(), result.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
+}
+
+HalfFaceHandle adjacent_on_sheet(const HexMesh& mesh, HalfFaceHandle hf, EdgeHandle e) {
+  const HalfFaceHandle between = mesh.opposite(mesh.adjacent_in_cell(hf, e));
+  return between.valid() ? mesh.adjacent_in_cell(between, e) : HalfFaceHandle();
+}
+
+std::vector<HalfFaceHandle> halffaces_on_sheet(const HexMesh& mesh, HalfFaceHandle hf) {
+  std::vector<char> reached(6 * static_cast<std::size_t>(mesh.cell_slots()), 0);
+  std::vector<HalfFaceHandle> result{hf};
+  reached[hf.idx] = 1;
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    for (EdgeHandle e : mesh.edges(result[i])) {
+      const HalfFaceHandle next = adjacent_on_sheet(mesh, result[i], e);
+      if (!next.valid() || reached[next.idx]) continue;
+      reached[next.idx] = 1;
+      result.push_back(next);
+    }
+  }
+  return result;
+}
+
+std::vector<CellHandle> cells_on_sheet(const HexMesh& mesh, CellHandle c, int axis) {
+  return dual_sheet(mesh, mesh.edges(c)[4 * axis]).cells();
+}
+
+}  // namespace hexweft
