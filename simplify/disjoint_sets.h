@@ -3,6 +3,7 @@
 #pragma once
 
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace hexweft {
@@ -32,6 +33,9 @@ class DisjointSets {
     parent_[b] = a;
     return true;
   }
+
+  /// Makes x a set of its own again. \pre done for every member of its set
+  void release(int x) { parent_[x] = x; }
 
  private:
   std::vector<int> parent_;

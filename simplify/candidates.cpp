@@ -1,0 +1,61 @@
+#include "simplify/candidates.h"
+
+#include <algorithm>
+
+namespace hexweft {
+namespace {
+
+void sort_by_energy(std::vector<Candidate>& queue) {
+  std::stable_sort(queue.begin(), queue.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.energy < b.energy; });
+}
+
+}  // namespace
+
+CandidateQueues make_queues(const HexMesh& mesh, const BaseComplex& bc, const SimplifyOptions& options) {
+  CandidateQueues q;
+  q.sheets = extract_sheets(bc);
+  const auto sheet_terms = rank_sheets(mesh, bc, q.sheets, options.weights);
+  for (int i = 0; i < static_cast<int>(q.sheets.size()); ++i) {
+    q.sheet_queue.push_back({i, sheet_terms[i].energy});
+  }
+  sort_by_energy(q.sheet_queue);
+  if (!options.chords) return q;
+  q.chords = extract_chords(bc);
+  q.chord_terms = rank_chords(mesh, bc, q.chords, boundary_gaussian_curvature(mesh), options.weights);
+  for (int i = 0; i < static_cast<int>(q.chords.size()); ++i) {
+    const ChordTerms& t = q.chord_terms[i];
+    if (can_plan(bc, q.chords[i]) != Refusal::none || t.singular_groups < 2 ||
+        t.deviation > options.max_chord_deviation) {
+      continue;
+    }
+    q.chord_queue.push_back({i, t.energy});
+  }
+  sort_by_energy(q.chord_queue);
+  return q;
+}
+
+std::size_t FailureMemory::key(const CollapsePlan& plan) {
+  // FNV-1a over the cells, and the groups: the two diagonals of a chord remove the same cells.
+  std::size_t h = 1469598103934665603ull;
+  const auto mix = [&h](int x) { h = (h ^ static_cast<unsigned>(x)) * 1099511628211ull; };
+  for (CellHandle c : plan.removed) mix(c.idx);
+  mix(plan.n_groups());
+  mix(plan.members.empty() ? 0 : plan.group(0).back().idx);
+  return h;
+}
+
+bool FailureMemory::should_wait(std::size_t key, int step, bool patient) const {
+  const auto it = failures_.find(key);
+  if (it == failures_.end()) return false;
+  const Failure& f = it->second;
+  return step - f.step < (patient ? 1 << std::min(f.times, 5) : 1);
+}
+
+void FailureMemory::failed(std::size_t key, int step) {
+  Failure& f = failures_[key];
+  f.step = step;
+  ++f.times;
+}
+
+}  // namespace hexweft

@@ -1,0 +1,45 @@
+/// \file
+/// The queues of the loop: what could be collapsed, in order, and what is known of earlier failures.
+#pragma once
+
+#include <unordered_map>
+#include <vector>
+
+#include "simplify/collapse_plan.h"
+#include "simplify/options.h"
+
+namespace hexweft {
+
+/// A sheet or a chord, by its place in the lists of the current base complex.
+struct Candidate {
+  int index;
+  double energy;
+};
+
+/// All sheets and chords of a base complex, those of each kind that pass the cheap filters in order
+/// of rising energy (ties by index).
+struct CandidateQueues {
+  std::vector<Sheet> sheets;
+  std::vector<Chord> chords;
+  std::vector<ChordTerms> chord_terms;
+  std::vector<Candidate> sheet_queue, chord_queue;
+};
+CandidateQueues make_queues(const HexMesh& mesh, const BaseComplex& bc, const SimplifyOptions& options);
+
+/// Remembers which collapses failed. A candidate is known by the cells it would remove; after a
+/// failure it waits for a growing number of accepted steps before it is tried again.
+class FailureMemory {
+ public:
+  static std::size_t key(const CollapsePlan& plan);
+  bool should_wait(std::size_t key, int step, bool patient) const;
+  void failed(std::size_t key, int step);
+  void forget_all() { failures_.clear(); }
+
+ private:
+  struct Failure {
+    int step, times;
+  };
+  std::unordered_map<std::size_t, Failure> failures_;
+};
+
+}  // namespace hexweft

@@ -1,0 +1,37 @@
+#include "simplify/options.h"
+
+#include <string>
+
+#include <fmt/format.h>
+
+#include "ovm/errors.h"
+
+namespace hexweft {
+namespace {
+
+template <class T>
+void expect(bool holds, const char* name, T value, const char* expected) {
+  if (!holds) throw InputError(fmt::format("{} = {}, expected {}", name, value, expected));
+}
+
+}  // namespace
+
+void validate(const SimplifyOptions& o) {
+  expect(o.hausdorff_limit_rel > 0 && o.hausdorff_limit_rel <= 1, "hausdorff_limit_rel",
+         o.hausdorff_limit_rel, "(0, 1]");
+  expect(o.min_scaled_jacobian >= 0 && o.min_scaled_jacobian < 1, "min_scaled_jacobian",
+         o.min_scaled_jacobian, "[0, 1)");
+  expect(o.target_hexahedra_rel > 0, "target_hexahedra_rel", o.target_hexahedra_rel, "> 0");
+  expect(o.rings > 0, "rings", o.rings, "> 0");
+  expect(o.max_chord_deviation > 0, "max_chord_deviation", o.max_chord_deviation, "> 0");
+  if (o.target_rate) {
+    expect(*o.target_rate >= 0 && *o.target_rate <= 1, "target_rate", *o.target_rate, "[0, 1]");
+  }
+  if (o.target_components) {
+    expect(*o.target_components > 0, "target_components", *o.target_components, "> 0");
+  }
+  if (o.max_seconds) expect(*o.max_seconds > 0, "max_seconds", *o.max_seconds, "> 0");
+  validate(o.parametrization);
+}
+
+}  // namespace hexweft

@@ -1,0 +1,47 @@
+/// \file
+/// The options of the simplification: the only home of its defaults.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <stop_token>
+
+#include "optimize/local_parametrization.h"
+#include "simplify/collapse_plan.h"
+#include "simplify/rank.h"
+
+namespace hexweft {
+
+/// What an observer is told after every accepted step.
+struct SimplifyProgress {
+  int step = 0;  ///< accepted steps so far
+  int hexahedra = 0, components = 0, input_components = 0;
+  double hausdorff_ratio = 0;  ///< of the bounding-box diagonal, at the loop's sampling
+  double seconds = 0;          ///< since the start
+};
+
+/// When to stop simplifying and what to preserve.
+struct SimplifyOptions {
+  RankingWeights weights = octree_weights();
+  bool chords = true;  ///< collapse chords between sheets
+
+  double hausdorff_limit_rel = 0.01;   ///< (0, 1], of the input's bounding-box diagonal, both ways
+  double min_scaled_jacobian = 0.1;    ///< [0, 1); a step may not leave its region below both this and
+                                       ///< what it found there
+  double target_hexahedra_rel = 1.0;   ///< > 0, of the input's count; below it sheets are refined
+  int rings = 4;                       ///< > 0, rings of cells round a collapse that move, per layer
+  double max_chord_deviation = 0.9;    ///< > 0, D(c) / 3k of a chord that is tried
+  ValenceLimits valence = {};
+  ParametrizationOptions parametrization = {};
+
+  std::optional<double> target_rate = {};    ///< [0, 1], stop at R = 1 - BC / BC_in
+  std::optional<int> target_components = {};  ///< > 0, stop at so many
+  std::optional<double> max_seconds = {};     ///< > 0, stop collapsing after so long
+  std::stop_token stop = {};                  ///< stops at the next step; the mesh is valid then
+  std::function<void(const SimplifyProgress&)> observer = {};
+};
+
+/// \throws InputError, one sentence that names the option, its value and what was expected
+void validate(const SimplifyOptions& options);
+
+}  // namespace hexweft

@@ -1,0 +1,170 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "ovm/quality.h"
+#include "simplify/disjoint_sets.h"
+#include "simplify/rank.h"
+
+namespace hexweft {
+namespace {
+
+double length(const HexMesh& mesh, const BaseComplex& bc, const BaseEdge& e) {
+  const auto chain = bc.chain(e);
+  double sum = 0;
+  for (std::size_t i = 1; i < chain.size(); ++i) {
+    sum += (mesh.point(chain[i]) - mesh.point(chain[i - 1])).norm();
+  }
+  return sum;
+}
+
+// The base edges of F_L and F_R, in groups that would become one. Scratch is kept from sheet to sheet.
+class SideGroups {
+ public:
+  explicit SideGroups(const BaseComplex& bc)
+      : bc_(bc),
+        sets_(static_cast<int>(bc.edges.size())),
+        stamp_(bc.edges.size(), -1),
+        surviving_(bc.edges.size(), 0) {}
+
+  /// Sum over the groups of T(K_max - K_new), Eq. 7.
+  double gain(const Sheet& sheet) {
+    collect(sheet);
+    std::vector<std::pair<int, int>> by_group;
+    for (int e : members_) by_group.emplace_back(sets_.find(e), e);
+    std::sort(by_group.begin(), by_group.end());
+    double sum = 0;
+    for (std::size_t begin = 0, end = 0; begin < by_group.size(); begin = end) {
+      while (end < by_group.size() && by_group[end].first == by_group[begin].first) ++end;
+      if (end - begin > 1) sum += group_gain({by_group.data() + begin, end - begin});
+    }
+    for (int e : members_) sets_.release(e);
+    return sum;
+  }
+
+ private:
+  void collect(const Sheet& sheet) {
+    members_.clear();
+    ++now_;
+    for (std::size_t i = 0; i < sheet.crossings.size(); ++i) {
+      const int c = sheet.crossings[i].component;
+      join_sides(sheet.crossings[i]);
+      if (i > 0 && sheet.crossings[i - 1].component == c) continue;
+      for (int e : bc_.components[c].edges) --surviving_[touch(e)];
+    }
+  }
+
+  int touch(int e) {
+    if (stamp_[e] != now_) {
+      stamp_[e] = now_;
+      members_.push_back(e);
+      surviving_[e] = bc_.edges[e].valence;
+    }
+    return e;
+  }
+
+  void join_sides(const Crossing& x) {
+    const auto& edges = bc_.components[x.component].edges;
+    for (int e = 0; e < 12; ++e) {
+      const auto& [from, to] = kEdgeCorners[e];
+      if (edge_axis(e) == x.axis || kCornerCoords[from][x.axis] == 1) continue;
+      const int twin = kEdgeBetween[kCornerAcross[from][x.axis]][kCornerAcross[to][x.axis]];
+      sets_.join(touch(edges[e]), touch(edges[twin]));
+    }
+  }
+
+  double group_gain(std::span<const std::pair<int, int>> group) const {
+    int valence = 0, worst = 0;
+    bool boundary = false;
+    for (const auto& [root, id] : group) {
+      const BaseEdge& e = bc_.edges[id];
+      valence += surviving_[id];
+      boundary |= e.boundary;
+      worst = std::max(worst, e.valence_error());
+    }
+    const int k = worst - std::abs(valence - (boundary ? 2 : 4));
+    return k < 0 ? 0.5 * k : k == 0 ? 1.0 : k;
+  }
+
+  const BaseComplex& bc_;
+  DisjointSets sets_;
+  std::vector<int> stamp_, surviving_, members_;
+  int now_ = -1;
+};
+
+// Sum of K^m over the singular curves that lie wholly in E_M: those that are one base edge.
+double middle_gain(const BaseComplex& bc, const Sheet& sheet) {
+  double sum = 0;
+  for (int id : sheet.edges) {
+    const BaseEdge& e = bc.edges[id];
+    if (!e.singular) continue;
+    const bool whole = bc.graph.singular_vertex[bc.vertices[e.ends[0]].idx] &&
+                       bc.graph.singular_vertex[bc.vertices[e.ends[1]].idx];
+    if (whole) sum += e.valence_error();
+  }
+  return sum;
+}
+
+double width_term(const HexMesh& mesh, const BaseComplex& bc, const Sheet& sheet, double mean_edge,
+                  const RankingWeights& w) {
+  double least = std::numeric_limits<double>::infinity(), sum = 0;
+  for (int e : sheet.edges) {
+    const double l = length(mesh, bc, bc.edges[e]);
+    least = std::min(least, l);
+    sum += l;
+  }
+  const double mean = sum / static_cast<double>(sheet.edges.size());
+  return std::cbrt((w.min_width * least + w.mean_width * mean) / mean_edge);
+}
+
+double distortion_term(const BaseComplex& bc, const Sheet& sheet, const std::vector<double>& differences,
+                       double threshold) {
+  double sum = 0;
+  for (const Crossing& x : sheet.crossings) {
+    for (CellHandle c : bc.cells(bc.components[x.component])) {
+      if (differences[c.idx] >= threshold) sum += differences[c.idx];
+    }
+  }
+  return 1 / std::log(sum + std::numbers::e);
+}
+
+}  // namespace
+
+std::vector<double> shape_differences(const HexMesh& mesh) {
+  std::vector<double> shape(mesh.cell_slots(), 0), result(mesh.cell_slots(), 0);
+  for (CellHandle c : mesh.cells()) shape[c.idx] = shape_metric(mesh, c);
+  for (CellHandle c : mesh.cells()) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const CellHandle down = mesh.cell(mesh.opposite(mesh.halfface(c, 2 * axis)));
+      const CellHandle up = mesh.cell(mesh.opposite(mesh.halfface(c, 2 * axis + 1)));
+      if (!down.valid() || !up.valid()) continue;
+      const double second = std::abs(shape[down.idx] + shape[up.idx] - 2 * shape[c.idx]);
+      result[c.idx] = std::max(result[c.idx], second);
+    }
+  }
+  return result;
+}
+
+std::vector<SheetTerms> rank_sheets(const HexMesh& mesh, const BaseComplex& bc,
+                                    const std::vector<Sheet>& sheets, const RankingWeights& w) {
+  const std::vector<double> differences = shape_differences(mesh);
+  const double mean_edge = mean_edge_length(mesh);
+  std::size_t most_edges = 1;  // DM
+  for (const Sheet& s : sheets) most_edges = std::max(most_edges, s.edges.size());
+  const auto dm = static_cast<double>(most_edges);
+
+  SideGroups groups(bc);
+  std::vector<SheetTerms> result;
+  for (const Sheet& s : sheets) {
+    SheetTerms t;
+    t.valence = (dm - w.beta * (groups.gain(s) + middle_gain(bc, s))) / dm;
+    t.width = width_term(mesh, bc, s, mean_edge, w);
+    t.distortion = distortion_term(bc, s, differences, w.distortion_threshold);
+    t.energy = w.k_distortion * (1 - std::exp(-t.distortion)) +
+               w.k_width * (1 - std::exp(-t.width)) + w.k_valence * (1 - std::exp(-t.valence));
+    result.push_back(t);
+  }
+  return result;
+}
+
+}  // namespace hexweft

@@ -1,0 +1,90 @@
+#include "simplify/refine.h"
+
+#include <algorithm>
+
+#include "ovm/edit/split_sheet.h"
+#include "ovm/quality.h"
+#include "ovm/transaction.h"
+
+namespace hexweft {
+namespace {
+
+struct Measured {
+  int sheet;
+  double length = 0;    // mean across, model units
+  double distance = 0;  // mean over its boundary sides
+};
+
+std::vector<Measured> measure(const HexMesh& mesh, const std::vector<DualSheet>& sheets,
+                              const std::vector<double>& distance_of_side) {
+  std::vector<Measured> result;
+  for (int i = 0; i < static_cast<int>(sheets.size()); ++i) {
+    Measured m{i};
+    for (EdgeHandle e : sheets[i].edges) {
+      const auto [a, b] = mesh.vertices(e);
+      m.length += (mesh.point(a) - mesh.point(b)).norm();
+    }
+    m.length /= static_cast<double>(sheets[i].edges.size());
+    int n = 0;
+    for (const CellAxis& x : sheets[i].crossings) {
+      for (int s = 0; s < 6; ++s) {
+        const HalfFaceHandle hf = mesh.halfface(x.cell, s);
+        if (side_axis(s) == x.axis || !mesh.is_boundary(hf)) continue;
+        m.distance += distance_of_side[hf.idx];
+        ++n;
+      }
+    }
+    if (n > 0) m.distance /= n;
+    result.push_back(m);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::optional<DualSheet> choose_sheet_to_refine(const HexMesh& mesh, const SurfaceDistance& distance,
+                                                const RefineOptions& options,
+                                                std::span<const EdgeHandle> excluded) {
+  std::vector<DualSheet> sheets = list_dual_sheets(mesh);
+  const double long_enough = options.min_length_rel * mean_edge_length(mesh);
+  std::vector<Measured> candidates;
+  for (const Measured& m : measure(mesh, sheets, distance.distance_by_halfface())) {
+    const DualSheet& s = sheets[m.sheet];
+    const bool fits = static_cast<int>(s.crossings.size()) <= options.max_cells;
+    const bool known = std::find(excluded.begin(), excluded.end(), s.edges.front()) != excluded.end();
+    if (fits && !known && m.length > long_enough) candidates.push_back(m);
+  }
+  if (candidates.empty()) return std::nullopt;
+  const auto by_distance = [](const Measured& a, const Measured& b) { return a.distance > b.distance; };
+  const auto by_length = [](const Measured& a, const Measured& b) { return a.length < b.length; };
+  std::stable_sort(candidates.begin(), candidates.end(), by_distance);
+  const auto end = candidates.begin() +
+                   std::min<std::ptrdiff_t>(std::max(options.by_distance, 1), std::ssize(candidates));
+  return std::move(sheets[std::max_element(candidates.begin(), end, by_length)->sheet]);
+}
+
+bool try_refine(TrialContext& context, const DualSheet& sheet, const SimplifyOptions& options) {
+  HexMesh& mesh = context.mesh;
+  const double floor = std::min(options.min_scaled_jacobian, min_scaled_jacobian(mesh));
+  Transaction trial(mesh);
+  const SheetSplit split = split_sheet(mesh, sheet);
+  std::vector<VertexHandle> added;
+  for (const SplitVertex& s : split.vertices) {
+    added.push_back(s.vertex);
+  }
+  const std::vector<CellHandle> region = cells_around(mesh, added, options.rings);
+  ParametrizationOptions parametrization = options.parametrization;
+  parametrization.min_scaled_jacobian = floor * (1 - 1e-9);
+  if (!parametrize(mesh, region, context.reference, parametrization).valid()) return false;
+  std::vector<CellHandle> touched = region;
+  touched.insert(touched.end(), split.removed.begin(), split.removed.end());
+  if (context.distance.after_change(mesh, touched, context.distance_limit) > context.distance_limit) {
+    context.distance.rollback();
+    return false;
+  }
+  context.distance.commit();
+  trial.commit();
+  return true;
+}
+
+}  // namespace hexweft

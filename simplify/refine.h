@@ -1,0 +1,31 @@
+/// \file
+/// Refinement: splitting a dual sheet where elements are scarce or the surface is badly met.
+/// It adds a layer of cells and leaves the base complex as it is. Source [Xu2021, §6].
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "ovm/dual.h"
+#include "simplify/trial.h"
+
+namespace hexweft {
+
+struct RefineOptions {
+  int max_cells = 0;              ///< a sheet may hold at most so many
+  double min_length_rel = 1.2;    ///< > 0, mean length across, of the mean edge length of the mesh
+  int by_distance = 4;            ///< >= 0, sheets looked at in the order of their mean distance first
+};
+
+/// Of the sheets with the largest mean distance one that is long across, else the longest; empty if
+/// none qualifies. `excluded` holds lowest edges of sheets not to take.
+std::optional<DualSheet> choose_sheet_to_refine(const HexMesh& mesh, const SurfaceDistance& distance,
+                                                const RefineOptions& options,
+                                                std::span<const EdgeHandle> excluded = {});
+
+/// Splits the sheet, puts new boundary vertices on the surface and relaxes round it.
+/// \return false (and all as before) if that inverts a cell or leaves the surface
+bool try_refine(TrialContext& context, const DualSheet& sheet, const SimplifyOptions& options);
+
+}  // namespace hexweft

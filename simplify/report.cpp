@@ -1,0 +1,98 @@
+#include "simplify/report.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "ovm/quality.h"
+#include "ovm/topology_summary.h"
+#include "simplify/base_complex.h"
+
+namespace hexweft {
+
+MeshFigures measure_mesh(const HexMesh& mesh) {
+  MeshFigures f;
+  const TopologySummary t = summarize_topology(mesh);
+  const QualitySummary q = summarize_quality(mesh, 0);
+  const BaseComplex bc = extract_base_complex(mesh);
+  f.vertices = t.n_vertices;
+  f.hexahedra = t.n_cells;
+  f.base_vertices = static_cast<int>(bc.vertices.size());
+  f.base_edges = static_cast<int>(bc.edges.size());
+  f.base_faces = static_cast<int>(bc.faces.size());
+  f.components = static_cast<int>(bc.components.size()) + bc.irregular;
+  f.min_scaled_jacobian = q.min_scaled_jacobian;
+  f.mean_scaled_jacobian = q.mean_scaled_jacobian;
+  f.std_scaled_jacobian = q.std_scaled_jacobian;
+  f.mean_volume_deviation = q.mean_volume_deviation;
+  f.max_volume_deviation = q.max_volume_deviation;
+  f.inverted = q.n_inverted;
+  f.genus = t.genus;
+  f.parts = t.n_parts;
+  return f;
+}
+
+std::string_view name(StopReason reason) {
+  static constexpr std::array<std::string_view, 4> names = {"nothing_left", "target_reached",
+                                                            "out_of_time", "interrupted"};
+  return names[static_cast<std::size_t>(reason)];
+}
+
+std::string SimplifyReport::brief() const {
+  std::string s = fmt::format("{:>12} {:>10} {:>10}\n", "", "before", "after");
+  const auto row = [&](const char* label, auto a, auto b, const char* format) {
+    s += fmt::format("{:>12} {:>10} {:>10}\n", label, fmt::format(fmt::runtime(format), a),
+                     fmt::format(fmt::runtime(format), b));
+  };
+  row("H", before.hexahedra, after.hexahedra, "{}");
+  row("BC", before.components, after.components, "{}");
+  row("R", 0.0, rate(), "{:.4f}");
+  row("MSJ", before.min_scaled_jacobian, after.min_scaled_jacobian, "{:.4f}");
+  row("ASJ", before.mean_scaled_jacobian, after.mean_scaled_jacobian, "{:.4f}");
+  row("HR %", 0.0, 100 * hausdorff_ratio, "{:.3f}");
+  row("time s", 0.0, seconds, "{:.2f}");
+  return s;
+}
+
+namespace {
+
+nlohmann::json to_json(const MeshFigures& f) {
+  return {{"vertices", f.vertices},
+          {"hexahedra", f.hexahedra},
+          {"base_vertices", f.base_vertices},
+          {"base_edges", f.base_edges},
+          {"base_faces", f.base_faces},
+          {"components", f.components},
+          {"min_scaled_jacobian", f.min_scaled_jacobian},
+          {"mean_scaled_jacobian", f.mean_scaled_jacobian},
+          {"std_scaled_jacobian", f.std_scaled_jacobian},
+          {"mean_volume_deviation", f.mean_volume_deviation},
+          {"max_volume_deviation", f.max_volume_deviation},
+          {"inverted", f.inverted},
+          {"genus", f.genus},
+          {"parts", f.parts}};
+}
+
+nlohmann::json to_json(const TrialCounts& c) {
+  nlohmann::json j = {{"accepted", c.accepted}};
+  for (int r = 1; r < kRefusals; ++r) {
+    if (c.refused[r] > 0) j["refused"][name(static_cast<Refusal>(r))] = c.refused[r];
+  }
+  return j;
+}
+
+}  // namespace
+
+nlohmann::json SimplifyReport::json() const {
+  return {{"before", to_json(before)},
+          {"after", to_json(after)},
+          {"rate", rate()},
+          {"hausdorff_ratio", hausdorff_ratio},
+          {"stopped", name(stopped)},
+          {"sheets", to_json(sheets)},
+          {"chords", to_json(chords)},
+          {"refined", refined},
+          {"refinement_failed", refinement_failed},
+          {"seconds", seconds}};
+}
+
+}  // namespace hexweft

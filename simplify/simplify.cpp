@@ -1,0 +1,183 @@
+#include "simplify/simplify.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include <fmt/format.h>
+
+#include "optimize/hausdorff.h"
+#include "ovm/errors.h"
+#include "ovm/quality.h"
+#include "ovm/topology_check.h"
+#include "simplify/candidates.h"
+#include "simplify/refine.h"
+#include "simplify/trial.h"
+
+namespace hexweft {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+void check_input(const HexMesh& mesh) {
+  for (const TopologyViolation& v : check_topology(mesh)) {
+    if (severity(v.defect) == Severity::invalid) throw InputError("the mesh is not valid: " + v.message);
+  }
+  if (mesh.n_cells() == 0) throw InputError("the mesh has no cells");
+  for (CellHandle c : mesh.cells()) {
+    const double sj = scaled_jacobian(mesh, c);
+    if (!(sj > 0)) {
+      throw InputError(fmt::format("cell {} has scaled Jacobian {:.4g}, expected > 0", c.idx, sj));
+    }
+  }
+}
+
+// One run: the mesh, what belongs to it, and the state of the loop.
+class Run {
+ public:
+  Run(HexMesh& mesh, const SimplifyOptions& options)
+      : mesh_(mesh),
+        options_(options),
+        start_(Clock::now()),
+        reference_(make_reference_surface(mesh)),
+        distance_(mesh, reference_),
+        context_{mesh, reference_, distance_, summarize_topology(mesh),
+                 options.hausdorff_limit_rel * reference_.bounding_box_diagonal()},
+        bc_(extract_base_complex(mesh)) {
+    if (bc_.irregular > 0) {
+      throw InputError(fmt::format("{} regions of the base complex are no cuboids", bc_.irregular));
+    }
+    report_.before = measure_mesh(mesh);
+  }
+
+  SimplifyReport run() {
+    while (!should_stop()) {
+      if (mesh_.n_cells() < options_.target_hexahedra_rel * report_.before.hexahedra * 0.95) refine();
+      if (!collapse_one(true) && !collapse_one(false) && !refine_when_stuck()) break;
+    }
+    report_.after = measure_mesh(mesh_);
+    report_.hausdorff_ratio = hausdorff_distance(mesh_, reference_).ratio();
+    report_.seconds = seconds();
+    return report_;
+  }
+
+ private:
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+  bool should_stop() {
+    const auto components = static_cast<int>(bc_.components.size());
+    const double rate = 1 - static_cast<double>(components) / report_.before.components;
+    if (options_.stop.stop_requested()) {
+      report_.stopped = StopReason::interrupted;
+    } else if (options_.max_seconds && seconds() >= *options_.max_seconds) {
+      report_.stopped = StopReason::out_of_time;
+    } else if ((options_.target_rate && rate >= *options_.target_rate) ||
+               (options_.target_components && components <= *options_.target_components)) {
+      report_.stopped = StopReason::target_reached;
+    } else {
+      return false;
+    }
+    return true;
+  }
+
+  // Tries candidates in order until one is accepted. A patient round leaves out what failed lately.
+  bool collapse_one(bool patient) {
+    const CandidateQueues q = make_queues(mesh_, bc_, options_);
+    const bool chord_first = chords_due_ > 0;
+    if (chord_first && collapse_chord(q, patient)) {
+      --chords_due_;
+      return true;
+    }
+    if (collapse_sheet(q, patient)) {
+      const std::size_t ratio = q.chord_queue.size() / std::max<std::size_t>(1, q.sheet_queue.size());
+      chords_due_ = static_cast<int>(std::min<std::size_t>(3, ratio));
+      return true;
+    }
+    return !chord_first && collapse_chord(q, patient);
+  }
+
+  bool collapse_sheet(const CandidateQueues& q, bool patient) {
+    for (const Candidate& c : q.sheet_queue) {
+      if (should_stop()) return true;
+      if (attempt(plan_sheet_collapse(mesh_, bc_, q.sheets[c.index]), report_.sheets, patient)) return true;
+    }
+    return false;
+  }
+
+  bool collapse_chord(const CandidateQueues& q, bool patient) {
+    for (const Candidate& c : q.chord_queue) {
+      if (should_stop()) return true;
+      const CollapsePlan plan =
+          plan_chord_collapse(mesh_, bc_, q.chords[c.index], q.chord_terms[c.index].diagonal);
+      if (attempt(plan, report_.chords, patient)) return true;
+    }
+    return false;
+  }
+
+  bool attempt(const CollapsePlan& plan, TrialCounts& counts, bool patient) {
+    const std::size_t key = FailureMemory::key(plan);
+    if (memory_.should_wait(key, step_, patient)) return false;
+    TrialResult result = try_collapse(context_, bc_, plan, options_);
+    if (!result.accepted()) {
+      ++counts.refused[static_cast<int>(result.refusal)];
+      memory_.failed(key, step_);
+      return false;
+    }
+    ++counts.accepted;
+    accept(std::move(result.base_complex));
+    return true;
+  }
+
+  void accept(BaseComplex bc) {
+    bc_ = std::move(bc);
+    ++step_;
+    not_refinable_.clear();
+    if (options_.observer) {
+      options_.observer({step_, mesh_.n_cells(), static_cast<int>(bc_.components.size()),
+                         report_.before.components, distance_.ratio(), seconds()});
+    }
+  }
+
+  // Splits one sheet if there is room for it.
+  bool refine() {
+    RefineOptions refine;
+    const double target = options_.target_hexahedra_rel * report_.before.hexahedra;
+    refine.max_cells = static_cast<int>(1.5 * (target - mesh_.n_cells()));
+    while (const auto sheet = choose_sheet_to_refine(mesh_, distance_, refine, not_refinable_)) {
+      if (try_refine(context_, *sheet, options_)) {
+        ++report_.refined;
+        not_refinable_.clear();
+        bc_ = extract_base_complex(mesh_);
+        memory_.forget_all();
+        return true;
+      }
+      ++report_.refinement_failed;
+      not_refinable_.push_back(sheet->edges.front());
+    }
+    return false;
+  }
+
+  bool refine_when_stuck() { return refine(); }
+
+  HexMesh& mesh_;
+  const SimplifyOptions& options_;
+  Clock::time_point start_;
+  ReferenceSurface reference_;
+  SurfaceDistance distance_;
+  TrialContext context_;
+  BaseComplex bc_;
+  FailureMemory memory_;
+  std::vector<EdgeHandle> not_refinable_;  // lowest edges of sheets whose split failed on this mesh
+  SimplifyReport report_;
+  int step_ = 0;
+  int chords_due_ = 0;  // chords to collapse before the next sheet
+};
+
+}  // namespace
+
+SimplifyReport simplify(HexMesh& mesh, const SimplifyOptions& options) {
+  validate(options);
+  check_input(mesh);
+  return Run(mesh, options).run();
+}
+
+}  // namespace hexweft

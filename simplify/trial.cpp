@@ -1,0 +1,120 @@
+#include "simplify/trial.h"
+
+#include <algorithm>
+
+#include "ovm/quality.h"
+#include "ovm/topology_check.h"
+#include "ovm/transaction.h"
+
+namespace hexweft {
+namespace {
+
+int euler_of_live(const HexMesh& mesh) {
+  return mesh.n_vertices() - mesh.n_edges() + mesh.n_faces() - mesh.n_cells();
+}
+
+// A step may lower the quality of its region to the floor, but not below what is worse already.
+double quality_floor(const HexMesh& mesh, const CollapsePlan& plan, double floor) {
+  double worst = floor;
+  for (CellHandle c : plan.removed) worst = std::min(worst, scaled_jacobian(mesh, c));
+  return std::max(worst, 1e-3);
+}
+
+Refusal check_topology_after(const HexMesh& mesh, std::span<const VertexHandle> left, int euler) {
+  if (left.empty()) return Refusal::vanishing;
+  if (euler_of_live(mesh) != euler) return Refusal::topology;
+  return is_clean(check_topology(mesh, left), Severity::degenerate) ? Refusal::none : Refusal::topology;
+}
+
+Refusal refusal_of(ParametrizationFailure failure) {
+  switch (failure) {
+    case ParametrizationFailure::none:
+      return Refusal::none;
+    case ParametrizationFailure::still_inverted:
+      return Refusal::inverted;
+    case ParametrizationFailure::low_quality:
+      return Refusal::quality;
+  }
+  return Refusal::inverted;
+}
+
+// Genus is kept by the Euler number and the count of boundary surfaces and parts.
+bool same_shape(const TopologySummary& a, const TopologySummary& b) {
+  return a.n_parts == b.n_parts && a.n_boundary_components == b.n_boundary_components &&
+         a.genus == b.genus;
+}
+
+}  // namespace
+
+std::vector<CellHandle> cells_around(const HexMesh& mesh, std::span<const VertexHandle> vertices,
+                                     int rings) {
+  std::vector<char> seen_vertex(mesh.vertex_slots(), 0), seen_cell(mesh.cell_slots(), 0);
+  std::vector<VertexHandle> front(vertices.begin(), vertices.end()), next;
+  std::vector<CellHandle> result;
+  for (VertexHandle v : front) seen_vertex[v.idx] = 1;
+  for (int ring = 0; ring < rings && !front.empty(); ++ring) {
+    next.clear();
+    for (VertexHandle v : front) {
+      for (CellHandle c : mesh.cells(v)) {
+        if (seen_cell[c.idx]) continue;
+        seen_cell[c.idx] = 1;
+        result.push_back(c);
+        for (VertexHandle w : mesh.vertices(c)) {
+          if (seen_vertex[w.idx]) continue;
+          seen_vertex[w.idx] = 1;
+          next.push_back(w);
+        }
+      }
+    }
+    front.swap(next);
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+TrialResult try_collapse(TrialContext& context, const BaseComplex& bc, const CollapsePlan& plan,
+                         const SimplifyOptions& options) {
+  HexMesh& mesh = context.mesh;
+  TrialResult result;
+  result.refusal = check_plan(mesh, bc.graph, plan, options.valence);
+  if (!result.accepted()) return result;
+
+  const int euler = euler_of_live(mesh);
+  ParametrizationOptions parametrization = options.parametrization;
+  parametrization.min_scaled_jacobian = quality_floor(mesh, plan, options.min_scaled_jacobian);
+
+  Transaction trial(mesh);
+  const auto left = apply_plan(mesh, plan, default_targets(mesh, bc.graph, plan));
+  result.refusal = check_topology_after(mesh, left, euler);
+  if (!result.accepted()) return result;
+  BaseComplex after = extract_base_complex(mesh);
+  if (after.irregular > 0 || after.components.size() >= bc.components.size()) {
+    result.refusal = Refusal::structure;
+    return result;
+  }
+
+  std::vector<CellHandle> region = cells_around(mesh, left, options.rings * plan.width);
+  result.refusal = refusal_of(parametrize(mesh, region, context.reference, parametrization).failure);
+  if (!result.accepted()) return result;
+
+  std::vector<CellHandle> touched = region;
+  touched.insert(touched.end(), plan.removed.begin(), plan.removed.end());
+  if (context.distance.after_change(mesh, touched, context.distance_limit) > context.distance_limit) {
+    context.distance.rollback();
+    result.refusal = Refusal::hausdorff;
+    return result;
+  }
+  // The Euler number is kept; a hole that moved from one part to another shows only here.
+  if (!same_shape(context.shape, summarize_topology(mesh))) {
+    context.distance.rollback();
+    result.refusal = Refusal::topology;
+    return result;
+  }
+  context.distance.commit();
+  trial.commit();
+  result.base_complex = std::move(after);
+  result.region = std::move(region);
+  return result;
+}
+
+}  // namespace hexweft

@@ -1,0 +1,40 @@
+/// \file
+/// One attempt at a collapse: edit, parametrization, checks; kept or undone.
+#pragma once
+
+#include <vector>
+
+#include "optimize/reference_surface.h"
+#include "optimize/surface_distance.h"
+#include "simplify/collapse_plan.h"
+#include "simplify/options.h"
+#include "ovm/topology_summary.h"
+
+namespace hexweft {
+
+/// What the trials of a run share. The mesh and its distance always belong together.
+struct TrialContext {
+  HexMesh& mesh;
+  const ReferenceSurface& reference;
+  SurfaceDistance& distance;
+  TopologySummary shape;  ///< of the input: genus and parts that every state must have
+  double distance_limit;  ///< model units
+};
+
+struct TrialResult {
+  Refusal refusal = Refusal::none;
+  BaseComplex base_complex;           ///< of the new mesh if accepted, else empty
+  std::vector<CellHandle> region;     ///< the cells that moved, if accepted
+  bool accepted() const { return refusal == Refusal::none; }
+};
+
+/// Collapses; on refusal the mesh and the distance are as before. Cheap checks come first: the plan,
+/// the topology, the new base complex, the parametrization, the distance.
+TrialResult try_collapse(TrialContext& context, const BaseComplex& bc, const CollapsePlan& plan,
+                         const SimplifyOptions& options);
+
+/// The live cells within `rings` of the vertices; ring 1 touches them. Ascending.
+std::vector<CellHandle> cells_around(const HexMesh& mesh, std::span<const VertexHandle> vertices,
+                                     int rings);
+
+}  // namespace hexweft
