@@ -1,0 +1,37 @@
+/// \file
+/// Improves the geometry of a whole mesh without leaving the surface.
+///
+///     const SmoothingReport report = smooth(mesh, reference);
+#pragma once
+
+#include <optional>
+
+#include "optimize/local_parametrization.h"
+
+namespace hexweft {
+
+struct SmoothingOptions {
+  double hausdorff_limit_rel = 0.01;  ///< > 0, fraction of the reference's bounding-box diagonal
+  int global_rounds = 3;              ///< ≥ 0, passes over the whole mesh
+  int local_trials = 200;             ///< ≥ 0, passes over the neighborhood of a worst cell
+  double enough_scaled_jacobian =
+      0.6;  ///< [0, 1], cells at least this good are not worked on one by one
+  ParametrizationOptions parametrization = {.surface = {.treatment = SurfaceTreatment::fit}};
+};
+void validate(const SmoothingOptions& options);  ///< \throws InputError
+
+struct SmoothingReport {
+  double initial_min_scaled_jacobian = 1, min_scaled_jacobian = 1;
+  double initial_mean_scaled_jacobian = 1, mean_scaled_jacobian = 1;
+  double initial_hausdorff_rel = 0, hausdorff_rel = 0;  ///< on the samples of SurfaceDistance
+  int accepted_global = 0, accepted_local = 0, trials = 0;
+};
+
+/// First the whole mesh is relaxed, then the neighborhoods of its worst cells, worst first. A pass
+/// that would lower the least scaled Jacobian (of the mesh; of the neighborhood for a local one),
+/// or bring the Hausdorff distance over the limit or over what it was if that is more, is undone.
+/// An inverted mesh is untangled if it can be.
+SmoothingReport smooth(HexMesh& mesh, const ReferenceSurface& reference,
+                       const SmoothingOptions& options = {});
+
+}  // namespace hexweft

@@ -1,0 +1,221 @@
+#include "optimize/surface_constraint.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+
+namespace hexweft {
+namespace {
+
+/// Normals of the quads, and of the surface vertices as their area-weighted means.
+struct RegionNormals {
+  explicit RegionNormals(const Region& region)
+      : quad(3, static_cast<Eigen::Index>(region.quads.size())),
+        vertex(Eigen::Matrix3Xd::Zero(3, region.points.cols())) {
+    for (std::size_t i = 0; i < region.quads.size(); ++i) {
+      const auto& q = region.quads[i];
+      const Eigen::Vector3d d1 = region.points.col(q[2]) - region.points.col(q[0]);
+      const Eigen::Vector3d d2 = region.points.col(q[3]) - region.points.col(q[1]);
+      const Eigen::Vector3d area = d1.cross(d2);
+      quad.col(i) = area.normalized();
+      for (int v : q) vertex.col(v) += area;
+    }
+    vertex.colwise().normalize();
+  }
+  Eigen::Matrix3Xd quad, vertex;
+};
+
+/// Least and greatest signed distance from samples of the quads round a vertex to the reference,
+/// positive where the reference lies outside.
+struct Deviation {
+  double least = 0, greatest = 0;
+  void take(double d) {
+    least = std::min(least, d);
+    greatest = std::max(greatest, d);
+  }
+  double middle() const { return (least + greatest) / 2; }
+};
+
+std::vector<Deviation> deviations(const Region& region, const RegionNormals& normals,
+                                  const ReferenceSurface& reference) {
+  std::vector<Deviation> result(region.points.cols());
+  for (std::size_t i = 0; i < region.quads.size(); ++i) {
+    const auto& q = region.quads[i];
+    const Eigen::Vector3d normal = normals.quad.col(i);
+    Eigen::Vector3d p[4];
+    for (int k = 0; k < 4; ++k) p[k] = region.points.col(q[k]);
+    const auto signed_distance = [&](const Eigen::Vector3d& at) {
+      const SurfacePoint s = reference.closest(at, normal);
+      return std::copysign(s.distance, (s.point - at).dot(normal));
+    };
+    const double centre = signed_distance((p[0] + p[2]) / 2);
+    const double halves[2] = {signed_distance((p[0] + p[1] + p[2]) / 3),
+                              signed_distance((p[2] + p[3] + p[0]) / 3)};
+    for (int k = 0; k < 4; ++k) {
+      const double edge = signed_distance((p[k] + p[(k + 1) % 4]) / 2);
+      for (double d : {centre, halves[0], halves[1], edge}) result[q[k]].take(d);
+      result[q[(k + 1) % 4]].take(edge);
+    }
+  }
+  return result;
+}
+
+/// The tangent planes met round a vertex, as moments.
+struct TangentPlanes {
+  Eigen::Matrix3d normals = Eigen::Matrix3d::Zero();  // Σ n nᵀ
+  Eigen::Vector3d offsets = Eigen::Vector3d::Zero();  // Σ n (n · point)
+  int n = 0;
+  void take(const Eigen::Vector3d& normal, const Eigen::Vector3d& point) {
+    normals += normal * normal.transpose();
+    offsets += normal * normal.dot(point);
+    ++n;
+  }
+};
+
+std::vector<TangentPlanes> tangent_planes(const Region& region, const RegionNormals& normals,
+                                          const ReferenceSurface& reference) {
+  constexpr double kInto = 0.25;  // of the way to the quad's centre
+  std::vector<TangentPlanes> planes(region.points.cols());
+  for (std::size_t i = 0; i < region.quads.size(); ++i) {
+    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+    for (int v : region.quads[i]) centre += region.points.col(v) / 4;
+    for (int v : region.quads[i]) {
+      if (v >= region.n_free) continue;
+      const Eigen::Vector3d at = (1 - kInto) * region.points.col(v) + kInto * centre;
+      const SurfacePoint s = reference.closest(at, normals.quad.col(i));
+      planes[v].take(s.normal, s.point);
+    }
+  }
+  return planes;
+}
+
+/// The goal of a vertex at p with closest point s and mean normal `outward`.
+SurfaceGoal goal_on(const TangentPlanes& planes, int vertex, const Eigen::Vector3d& p,
+                    const SurfacePoint& s, const Eigen::Vector3d& outward, double threshold,
+                    const ReferenceSurface& reference) {
+  constexpr double kRim =
+      0.5;  // sine of the angle from the planes' normals to the outward direction
+  SurfaceGoal goal{vertex, s.point, s.normal * s.normal.transpose()};
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
+  eigen.computeDirect(planes.normals / planes.n);
+  const Eigen::Vector3d force = (planes.offsets - planes.normals * p) / planes.n;
+  Eigen::Vector3d move = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d fixed = Eigen::Matrix3d::Zero();
+  for (int k = 0; k < 3; ++k) {
+    if (eigen.eigenvalues()[k] < threshold) continue;
+    const Eigen::Vector3d axis = eigen.eigenvectors().col(k);
+    fixed += axis * axis.transpose();
+    move += axis * axis.dot(force) / eigen.eigenvalues()[k];
+  }
+  // On the rim of a thin part the planes of the two sides are one and say nothing of the way out.
+  const Eigen::Vector3d rim = outward - fixed * outward;
+  if (rim.norm() > kRim) {
+    const Eigen::Vector3d axis = rim.normalized();
+    fixed += axis * axis.transpose();
+    move += axis * axis.dot(s.point - p);
+  }
+  if (fixed.trace() < 1.5) return goal;
+  goal.fixed = fixed;
+  goal.point = reference.closest(p + move).point;
+  return goal;
+}
+
+/// Hexahedra at every free vertex, as one array with offsets.
+struct VertexHexes {
+  explicit VertexHexes(const Region& region) : first(region.n_free + 1, 0) {
+    for (const auto& hex : region.hexes) {
+      for (int v : hex) {
+        if (v < region.n_free) ++first[v + 1];
+      }
+    }
+    for (int v = 0; v < region.n_free; ++v) first[v + 1] += first[v];
+    hexes.resize(first.back());
+    std::vector<int> next(first.begin(), first.end() - 1);
+    for (std::size_t h = 0; h < region.hexes.size(); ++h) {
+      for (int v : region.hexes[h]) {
+        if (v < region.n_free) hexes[next[v]++] = static_cast<int>(h);
+      }
+    }
+  }
+  std::vector<int> first, hexes;
+};
+
+}  // namespace
+
+std::vector<SurfaceGoal> surface_goals(const Region& region, const ReferenceSurface& reference,
+                                       const SurfaceOptions& options) {
+  const RegionNormals normals(region);
+  const double half_angle = options.feature_angle_deg * std::numbers::pi / 360;
+  const double threshold = std::sin(half_angle) * std::sin(half_angle);
+  std::vector<TangentPlanes> planes = tangent_planes(region, normals, reference);
+  std::vector<SurfaceGoal> goals;
+  goals.reserve(region.surface.size());
+  std::vector<char> plane(region.points.cols(), 0);
+  for (int v : region.surface) {
+    const SurfacePoint s = reference.closest(region.points.col(v), normals.vertex.col(v));
+    planes[v].take(s.normal, s.point);
+    goals.push_back(goal_on(planes[v], v, region.points.col(v), s, normals.vertex.col(v), threshold,
+                            reference));
+    plane[v] = goals.back().fixed.trace() < 1.5;
+  }
+  if (options.treatment == SurfaceTreatment::project) return goals;
+  constexpr double kDamping = 0.7;  // neighbors move the same way; undamped they would overshoot
+  std::vector<Deviation> deviation = deviations(region, normals, reference);
+  for (SurfaceGoal& goal : goals) {
+    if (!plane[goal.vertex]) continue;
+    const Eigen::Vector3d p = region.points.col(goal.vertex);
+    const Eigen::Vector3d normal = normals.vertex.col(goal.vertex);
+    const double own = (goal.point - p).dot(normal);
+    Deviation& d = deviation[goal.vertex];
+    d.take(own);
+    goal.point += (kDamping * d.middle() - own) * (goal.fixed * normal);
+  }
+  return goals;
+}
+
+std::vector<VertexPull> surface_pulls(const Region& region, const std::vector<SurfaceGoal>& goals,
+                                      double weight) {
+  const std::vector<double> lengths = edge_lengths_at_vertices(region);
+  std::vector<VertexPull> pulls;
+  pulls.reserve(goals.size());
+  for (const SurfaceGoal& g : goals) {
+    const double length = std::max(lengths[g.vertex], 1e-300);
+    pulls.push_back({g.vertex, weight / (length * length) * g.fixed, g.point});
+  }
+  return pulls;
+}
+
+double move_to_goals(Region& region, const std::vector<SurfaceGoal>& goals, double least) {
+  constexpr int kHalvings = 5;
+  if (goals.empty()) return 1;
+  const VertexHexes around(region);
+  const Eigen::Matrix3Xd start = region.points;
+  const std::vector<double> before = scaled_jacobians(start, region.hexes);
+  std::vector<double> fraction(region.n_free, 1.0);
+  for (int round = 0; round <= kHalvings; ++round) {
+    for (const SurfaceGoal& g : goals) {
+      const double f = fraction[g.vertex];
+      region.points.col(g.vertex) = (1 - f) * start.col(g.vertex) + f * g.point;
+    }
+    const std::vector<double> now = scaled_jacobians(region.points, region.hexes);
+    bool good = true;
+    for (const SurfaceGoal& g : goals) {
+      for (int i = around.first[g.vertex]; i < around.first[g.vertex + 1]; ++i) {
+        const int h = around.hexes[i];
+        if (now[h] >= std::min(least, before[h]) || fraction[g.vertex] == 0) continue;
+        fraction[g.vertex] = round + 1 >= kHalvings ? 0 : fraction[g.vertex] / 2;
+        good = false;
+        break;
+      }
+    }
+    if (good) break;
+  }
+  const auto all_the_way = [&](const SurfaceGoal& g) { return fraction[g.vertex] == 1; };
+  return static_cast<double>(std::count_if(goals.begin(), goals.end(), all_the_way)) /
+         static_cast<double>(goals.size());
+}
+
+}  // namespace hexweft

@@ -1,0 +1,50 @@
+/// \file
+/// Keeps the surface vertices of a region on the reference: tangent planes to slide on, places to
+/// go to.
+#pragma once
+
+#include <vector>
+
+#include "optimize/reference_surface.h"
+#include "optimize/region.h"
+#include "optimize/relaxation.h"
+
+namespace hexweft {
+
+/// `project`: a vertex lies on the reference. `fit`: it lies beside it, by as much as makes the
+/// quads round it deviate least; a curved patch then errs half as much inward and half as much
+/// outward, instead of the whole sagitta inward.
+enum class SurfaceTreatment { project, fit };
+
+struct SurfaceOptions {
+  SurfaceTreatment treatment = SurfaceTreatment::project;
+  double feature_angle_deg =
+      40;               ///< (0, 180], normals round a vertex that differ by more are a feature
+  double weight = 1e3;  ///< > 0, of leaving the surface; one hexahedron's distortion is 1
+};
+
+/// Where one surface vertex should go, and how it may slide until then.
+struct SurfaceGoal {
+  int vertex;
+  Eigen::Vector3d point;  ///< on the reference, or beside it for `fit`
+  Eigen::Matrix3d fixed;  ///< projector onto the directions it must not move in
+};
+
+/// One goal for each vertex of region.surface, in that order. Closest points are looked for among
+/// the triangles that face as the quads at the vertex do, so that a thin part keeps its two sides
+/// apart. The tangent planes met a little way into the quads round a vertex tell what it sits on:
+/// nearly one plane, and it slides on it; two, and it slides along their line; more, and it stays
+/// in the corner.
+std::vector<SurfaceGoal> surface_goals(const Region& region, const ReferenceSurface& reference,
+                                       const SurfaceOptions& options);
+
+/// Pulls of `weight` / (edge length at the vertex)².
+std::vector<VertexPull> surface_pulls(const Region& region, const std::vector<SurfaceGoal>& goals,
+                                      double weight);
+
+/// Moves the surface vertices to their goals, each as far as no hexahedron's scaled Jacobian falls
+/// under `least`, nor falls at all where it is under it. \return the fraction of vertices that got
+/// all the way
+double move_to_goals(Region& region, const std::vector<SurfaceGoal>& goals, double least);
+
+}  // namespace hexweft
