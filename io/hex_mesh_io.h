@@ -22,7 +22,7 @@ namespace hexweft {
 
 struct ReadOptions {
   /// A name of formats.h; empty: by the extension, else (and for "-") by what the file starts with.
-  std::string format;
+  std::string format = {};
   /// Points that no hexahedron uses. Left out by default: to a mesh they mean nothing, and they
   /// would look like inner vertices without edges.
   bool keep_isolated_vertices = false;
@@ -35,7 +35,7 @@ struct ReadReport {
 };
 
 struct WriteOptions {
-  std::string format;              ///< a name of formats.h; empty: by the extension, "vtk" for "-"
+  std::string format = {};         ///< a name of formats.h; empty: by the extension, "vtk" for "-"
   bool binary = false;             ///< where the format knows both
   std::optional<int> precision{};  ///< [1, 17] significant digits in text; empty: as few as read
                                    ///< back the same

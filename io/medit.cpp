@@ -99,8 +99,12 @@ class MeditReader {
 void MeditReader::read_header() {
   if (lower_case(in_.peek()) != "meshversionformatted") in_.fail_expected("MeshVersionFormatted");
   in_.next();
+  const std::size_t before = in_.offset();
   std::int64_t version;
-  if (!in_.read(version) || version < 1 || version > 4) in_.fail_expected("a version from 1 to 4");
+  if (!in_.read(version) || version < 1 || version > 4) {
+    in_.seek(before);
+    in_.fail_expected("a version from 1 to 4");
+  }
 }
 
 void MeditReader::read_section() {

@@ -1,0 +1,90 @@
+// Where each format puts which corner of a cell.
+#include "io/formats.h"
+#include "tests/io/sample_meshes.h"
+
+namespace hexweft::test {
+namespace {
+
+struct CubeFile {
+  std::string format, text;
+};
+
+// Written by hand after each format's definition: points 0 to 7 of the unit cube, then one cell.
+const std::vector<CubeFile> kCubes{
+    {"vtk",
+     "# vtk DataFile Version 3.0\ncube\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 8 double\n"
+     "0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n"
+     "CELLS 1 9\n8 0 1 2 3 4 5 6 7\nCELL_TYPES 1\n12\n"},
+    {"medit",
+     "MeshVersionFormatted 2\nDimension 3\nVertices\n8\n"
+     "0 0 0 0\n1 0 0 0\n1 1 0 0\n0 1 0 0\n0 0 1 0\n1 0 1 0\n1 1 1 0\n0 1 1 0\n"
+     "Hexahedra\n1\n1 2 3 4 5 6 7 8 0\nEnd\n"}};
+
+TEST(UnitCube, EveryFormatHasOne) {
+  for (const Format& format : formats()) {
+    const bool found = std::any_of(kCubes.begin(), kCubes.end(), [&](const CubeFile& cube) {
+      return cube.format == format.name;
+    });
+    EXPECT_TRUE(found) << format.name;
+  }
+}
+
+TEST(UnitCube, IsReadWithItsCornersInVtkOrder) {
+  for (const CubeFile& cube : kCubes) {
+    SCOPED_TRACE(cube.format);
+    ReadReport report;
+    const HexMesh mesh = read_hex_mesh_text(cube.text, "cube", {}, &report);
+    EXPECT_EQ(report.format, cube.format);
+    EXPECT_THAT(report.notes, testing::IsEmpty());
+    expect_same_mesh(mesh, unit_cube());
+  }
+}
+
+TEST(UnitCube, IsWrittenSo) {
+  for (const CubeFile& cube : kCubes) {
+    SCOPED_TRACE(cube.format);
+    const std::string text = write_hex_mesh_text(unit_cube(), {.format = cube.format});
+    if (cube.format == "vtk") {  // the title is free
+      EXPECT_EQ(text.substr(text.find("ASCII")), cube.text.substr(cube.text.find("ASCII")));
+    } else {
+      EXPECT_EQ(text, cube.text);
+    }
+  }
+}
+
+TEST(UnitCube, VoxelIsRenumbered) {
+  const HexMesh mesh = read_hex_mesh_text(
+      "# vtk DataFile Version 2.0\nvoxel\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 8 int\n"
+      "0 0 0 1 0 0 0 1 0 1 1 0 0 0 1 1 0 1 0 1 1 1 1 1\n"
+      "CELLS 1 9\n8 0 1 2 3 4 5 6 7\nCELL_TYPES 1\n11\n",
+      "voxel.vtk");
+  for (int i = 0; i < 8; ++i) {
+    const auto& x = kCornerCoords[i];
+    EXPECT_EQ(mesh.point(mesh.vertices(CellHandle(0))[i]), Eigen::Vector3d(x[0], x[1], x[2]));
+  }
+}
+
+TEST(UnitCube, MirroredCellsAreTurnedOnlyIfAllAre) {
+  const auto cells = [](const std::string& list) {
+    return "MeshVersionFormatted 1 Dimension 3 Vertices 12 "
+           "0 0 0 0 1 0 0 0 1 1 0 0 0 1 0 0 0 0 1 0 1 0 1 0 1 1 1 0 0 1 1 0 "
+           "0 0 2 0 1 0 2 0 1 1 2 0 0 1 2 0 Hexahedra 2 " +
+           list;
+  };
+  const auto first_corner = [](const HexMesh& mesh, int cell) {
+    return mesh.vertices(CellHandle(cell))[0].idx;
+  };
+  ReadReport report;
+  const HexMesh all =
+      read_hex_mesh_text(cells("5 6 7 8 1 2 3 4 0 9 10 11 12 5 6 7 8 0"), "m", {}, &report);
+  EXPECT_EQ(first_corner(all, 0), 0);
+  EXPECT_EQ(first_corner(all, 1), 4);
+  EXPECT_THAT(report.notes, testing::ElementsAre(testing::HasSubstr("mirrored")));
+  const HexMesh one =
+      read_hex_mesh_text(cells("5 6 7 8 1 2 3 4 0 5 6 7 8 9 10 11 12 0"), "m", {}, &report);
+  EXPECT_EQ(first_corner(one, 0), 4);
+  EXPECT_THAT(report.notes, testing::IsEmpty());
+}
+
+}  // namespace
+}  // namespace hexweft::test
