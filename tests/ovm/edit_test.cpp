@@ -1,0 +1,264 @@
+// Edits and their rollback.
+#include <random>
+
+#include <gmock/gmock.h>
+
+#include "ovm/edit/insert_sheet.h"
+#include "ovm/edit/split_sheet.h"
+#include "ovm/errors.h"
+#include "ovm/hex_mesh.h"
+#include "ovm/topology_check.h"
+#include "ovm/transaction.h"
+#include "tests/mesh_families.h"
+#include "tests/ovm/brute_force.h"
+#include "tests/ovm/mesh_dump.h"
+
+namespace hexweft {
+namespace {
+
+// Everything at once: a value on each kind of element.
+struct AllProperties {
+  explicit AllProperties(HexMesh& mesh)
+      : vertex(mesh, 1.5),
+        edge(mesh, -1),
+        half_edge(mesh, 7),
+        face(mesh, false),
+        half_face(mesh, Eigen::Vector3d::Zero()),
+        cell(mesh, "none") {
+    for (VertexHandle v : mesh.vertices()) vertex[v] = 0.25 * v.idx;
+    for (EdgeHandle e : mesh.edges()) edge[e] = 3 * e.idx;
+    for (FaceHandle f : mesh.faces()) face[f] = f.idx % 3 == 0;
+    for (CellHandle c : mesh.cells()) {
+      cell[c] = std::to_string(c.idx);
+      for (HalfFaceHandle hf : mesh.halffaces(c)) half_face[hf] = Eigen::Vector3d::Constant(hf.idx);
+    }
+  }
+  template <class Tag, class T, class Range>
+  static std::vector<T> values(const Property<Tag, T>& p, const Range& elements) {
+    std::vector<T> result;
+    for (auto h : elements) result.push_back(p[h]);
+    return result;
+  }
+  auto dump(const HexMesh& mesh) const {
+    std::vector<Eigen::Vector3d> sides;
+    std::vector<int> halves;
+    for (CellHandle c : mesh.cells()) {
+      for (HalfFaceHandle hf : mesh.halffaces(c)) sides.push_back(half_face[hf]);
+    }
+    for (EdgeHandle e : mesh.edges()) {
+      for (int i = 0; i < 2; ++i) halves.push_back(half_edge[HalfEdgeHandle(2 * e.idx + i)]);
+    }
+    const std::vector<int> sizes{vertex.size(), edge.size(),      half_edge.size(),
+                                 face.size(),   half_face.size(), cell.size()};
+    return std::tuple(values(vertex, mesh.vertices()), values(edge, mesh.edges()), halves,
+                      values(face, mesh.faces()), sides, values(cell, mesh.cells()), sizes);
+  }
+
+  VertexProperty<double> vertex;
+  EdgeProperty<int> edge;
+  Property<HalfEdgeTag, int> half_edge;
+  FaceProperty<bool> face;
+  HalfFaceProperty<Eigen::Vector3d> half_face;
+  CellProperty<std::string> cell;
+};
+
+// Seeded random edits, of every kind the kernel has.
+class RandomEditor {
+ public:
+  RandomEditor(HexMesh& mesh, AllProperties& properties, unsigned seed)
+      : mesh_(mesh), properties_(properties), random_(seed) {}
+
+  void edit() {
+    if (mesh_.n_cells() == 0) return add_lone_cell();
+    switch (random_() % 8) {
+      case 0:
+        return mesh_.delete_cell(some(mesh_.cells()));
+      case 1:
+        return add_lone_cell();
+      case 2:
+        return merge();
+      case 3:
+        if (mesh_.n_cells() < 500) split_sheet(mesh_, some(mesh_.edges()));
+        return;
+      case 4: {
+        const CellHandle c = some(mesh_.cells());
+        insert_sheet(mesh_, std::array{c}, {.include_boundary = random_() % 2 == 0});
+        return;
+      }
+      case 5:
+        return mesh_.set_point(some(mesh_.vertices()),
+                               Eigen::Vector3d::Constant(double(random_() % 9)));
+      case 6:
+        return write_properties();
+      default:
+        return delete_lonely_vertices();
+    }
+  }
+
+ private:
+  template <class Range>
+  typename Range::iterator::value_type some(const Range& range) {
+    std::vector<typename Range::iterator::value_type> all(range.begin(), range.end());
+    return all[random_() % all.size()];
+  }
+  void add_lone_cell() {
+    CellVertices v;
+    for (int i = 0; i < kCorners; ++i) {
+      const auto& x = kCornerCoords[i];
+      v[i] = mesh_.add_vertex({double(x[0]), double(x[1]), double(x[2])});
+    }
+    properties_.cell[mesh_.add_cell(v)] = "alone";
+  }
+  void merge() {
+    const std::array pairs{VertexMerge{some(mesh_.vertices()), some(mesh_.vertices())}};
+    if (pairs[0].keep == pairs[0].drop) return;
+    const MeshDump before(mesh_);
+    try {
+      mesh_.merge_vertices(pairs);
+    } catch (const InputError&) {
+      EXPECT_TRUE(MeshDump(mesh_) == before) << "a refused merge changed the mesh";
+    }
+  }
+  void write_properties() {
+    properties_.vertex[some(mesh_.vertices())] = -1;
+    properties_.edge[some(mesh_.edges())] = 12345;
+    properties_.half_edge[HalfEdgeHandle(2 * some(mesh_.edges()).idx + 1)] = 3;
+    const FaceHandle f = some(mesh_.faces());
+    properties_.face[f] = !properties_.face[f];
+    properties_.half_face[mesh_.halfface(f)].setConstant(-5);
+  }
+  void delete_lonely_vertices() {
+    std::vector<VertexHandle> lonely;
+    for (VertexHandle v : mesh_.vertices()) {
+      if (mesh_.cells(v).empty()) lonely.push_back(v);
+    }
+    for (VertexHandle v : lonely) mesh_.delete_vertex(v);
+  }
+  HexMesh& mesh_;
+  AllProperties& properties_;
+  std::mt19937_64 random_;
+};
+
+class EveryMeshFamily : public testing::TestWithParam<MeshFamily> {};
+INSTANTIATE_TEST_SUITE_P(, EveryMeshFamily, testing::ValuesIn(mesh_families()), family_name);
+
+TEST_P(EveryMeshFamily, RollbackRestoresEveryHandlePropertyAndCoordinate) {
+  HexMesh mesh = GetParam().make();
+  AllProperties properties(mesh);
+  const MeshDump before(mesh);
+  const auto values_before = properties.dump(mesh);
+  for (unsigned seed = 0; seed < 5; ++seed) {
+    Transaction trial(mesh);
+    RandomEditor editor(mesh, properties, seed);
+    for (int i = 0; i < 20; ++i) editor.edit();
+    EXPECT_FALSE(MeshDump(mesh) == before) << "nothing was edited, seed " << seed;
+    trial.rollback();
+    ASSERT_TRUE(MeshDump(mesh) == before) << "seed " << seed;
+    ASSERT_EQ(properties.dump(mesh), values_before) << "seed " << seed;
+  }
+}
+
+TEST_P(EveryMeshFamily, NestedTransactionsUndoTheirOwnEdits) {
+  HexMesh mesh = GetParam().make();
+  AllProperties properties(mesh);
+  const MeshDump before(mesh);
+  const auto values_before = properties.dump(mesh);
+  {
+    Transaction outer(mesh);
+    RandomEditor editor(mesh, properties, 11);
+    for (int i = 0; i < 8; ++i) editor.edit();
+    const MeshDump between(mesh);
+    const auto values_between = properties.dump(mesh);
+    {
+      Transaction inner(mesh);
+      for (int i = 0; i < 8; ++i) editor.edit();
+    }
+    EXPECT_TRUE(MeshDump(mesh) == between);
+    EXPECT_EQ(properties.dump(mesh), values_between);
+    {
+      Transaction inner(mesh);
+      for (int i = 0; i < 8; ++i) editor.edit();
+      inner.commit();
+    }
+  }
+  EXPECT_TRUE(MeshDump(mesh) == before) << "the outer rollback undoes inner commits too";
+  EXPECT_EQ(properties.dump(mesh), values_before);
+}
+
+TEST_P(EveryMeshFamily, EditsKeepIncidencesCurrent) {
+  HexMesh mesh = GetParam().make();
+  AllProperties properties(mesh);
+  RandomEditor editor(mesh, properties, 23);
+  for (int i = 0; i < 30; ++i) {
+    editor.edit();
+    const BruteForce expected(mesh);
+    ASSERT_EQ(mesh.n_edges(), static_cast<int>(expected.cells_of_edge.size()));
+    for (EdgeHandle e : mesh.edges()) {
+      const auto ends = BruteForce::sorted(mesh.vertices(e));
+      ASSERT_EQ(mesh.valence(e), static_cast<int>(expected.cells_of_edge.at(ends).size()));
+    }
+    for (VertexHandle v : mesh.vertices()) {
+      const auto it = expected.cells_of_vertex.find(v);
+      const int n = it == expected.cells_of_vertex.end() ? 0 : static_cast<int>(it->second.size());
+      ASSERT_EQ(mesh.cells(v).size(), n);
+    }
+  }
+  EXPECT_EQ(properties.vertex.size(), mesh.vertex_slots());
+  EXPECT_EQ(properties.half_face.size(), 6 * mesh.cell_slots());
+}
+
+TEST_P(EveryMeshFamily, CompactionAfterEditsKeepsPropertiesWithTheirElements) {
+  HexMesh mesh = GetParam().make();
+  AllProperties properties(mesh);
+  RandomEditor editor(mesh, properties, 31);
+  for (int i = 0; i < 25; ++i) editor.edit();
+  auto before = properties.dump(mesh);
+  std::get<6>(before).clear();
+  mesh.collect_garbage();
+  auto after = properties.dump(mesh);
+  EXPECT_EQ(std::get<6>(after), (std::vector{mesh.n_vertices(), mesh.n_edges(), 2 * mesh.n_edges(),
+                                             mesh.n_faces(), 6 * mesh.n_cells(), mesh.n_cells()}));
+  std::get<6>(after).clear();
+  EXPECT_EQ(after, before);
+  const MeshDump compact(mesh);
+  mesh.collect_garbage();
+  EXPECT_TRUE(MeshDump(mesh) == compact) << "compacting twice changes nothing";
+}
+
+TEST(Merge, FoldsASheetOfAGridAway) {
+  HexMesh mesh = make_grid({3, 2, 2});
+  std::vector<CellHandle> layer;
+  std::vector<VertexMerge> merges;
+  for (CellHandle c : mesh.cells()) {
+    if (c.idx % 3 == 1) layer.push_back(c);
+  }
+  for (VertexHandle v : mesh.vertices()) {
+    if (v.idx % 4 == 1) merges.push_back({v, VertexHandle(v.idx + 1)});
+  }
+  for (CellHandle c : layer) mesh.delete_cell(c);
+  mesh.merge_vertices(merges);
+  EXPECT_EQ(mesh.n_cells(), 8);
+  EXPECT_EQ(mesh.n_vertices(), 27);
+  EXPECT_EQ(mesh.n_edges(), 54);
+  EXPECT_EQ(mesh.n_faces(), 36);
+  EXPECT_THAT(check_topology(mesh), testing::IsEmpty());
+}
+
+TEST(Merge, RefusesTwoCornersOfACellAndLeavesTheMesh) {
+  HexMesh mesh = make_grid({2, 1, 1});
+  const MeshDump before(mesh);
+  const std::array merges{VertexMerge{VertexHandle(0), VertexHandle(5)},
+                          VertexMerge{VertexHandle(1), VertexHandle(2)}};
+  EXPECT_THROW(mesh.merge_vertices(merges), InputError);
+  EXPECT_TRUE(MeshDump(mesh) == before);
+}
+
+TEST(Transaction, ForbidsCompactionAndCopies) {
+  HexMesh mesh = make_grid({1, 1, 1});
+  Transaction t(mesh);
+  EXPECT_THROW(mesh.collect_garbage(), InputError);
+  EXPECT_THROW(HexMesh copy(mesh), InputError);
+}
+
+}  // namespace
+}  // namespace hexweft
