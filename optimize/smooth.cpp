@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "optimize/hausdorff.h"
 #include "optimize/region.h"
 #include "optimize/surface_distance.h"
 #include "ovm/errors.h"
@@ -28,15 +29,20 @@ std::vector<double> quality(const HexMesh& mesh, const std::vector<CellHandle>& 
 
 class Smoother {
  public:
-  Smoother(HexMesh& mesh, const ReferenceSurface& reference, const SmoothingOptions& options)
-      : mesh_(mesh), options_(options), distance_(mesh, reference), cells_(all_cells(mesh)) {
-    limit_ = std::max(options.hausdorff_limit_rel * reference.bounding_box_diagonal(),
-                      distance_.distance());
-  }
+  /// \param limit  of the distance, model units
+  Smoother(HexMesh& mesh, const ReferenceSurface& reference, const SmoothingOptions& options,
+           double limit)
+      : mesh_(mesh),
+        options_(options),
+        distance_(mesh, reference, kSamples),
+        cells_(all_cells(mesh)),
+        limit_(std::max(limit, distance_.distance())) {}
 
   SmoothingReport run();
 
  private:
+  static constexpr SurfaceDistanceOptions kSamples{.mesh_levels = 1, .reference_levels = 1};
+
   bool attempt(const std::vector<CellHandle>& region, const ParametrizationOptions& options,
                double least_gain);
   void relax_globally();
@@ -46,7 +52,7 @@ class Smoother {
   const SmoothingOptions& options_;
   SurfaceDistance distance_;
   std::vector<CellHandle> cells_;
-  double limit_;  // model units
+  double limit_;
   SmoothingReport report_;
 };
 
@@ -129,12 +135,15 @@ SmoothingReport Smoother::run() {
     mean = std::accumulate(sj.begin(), sj.end(), 0.0) / static_cast<double>(sj.size());
   };
   summarize(report_.initial_min_scaled_jacobian, report_.initial_mean_scaled_jacobian);
-  report_.initial_hausdorff_rel = distance_.ratio();
   relax_globally();
   relax_worst_cells();
   summarize(report_.min_scaled_jacobian, report_.mean_scaled_jacobian);
-  report_.hausdorff_rel = distance_.ratio();
   return report_;
+}
+
+SmoothingOptions untouched(SmoothingOptions options) {
+  options.global_rounds = options.local_trials = 0;
+  return options;
 }
 
 }  // namespace
@@ -158,7 +167,23 @@ SmoothingReport smooth(HexMesh& mesh, const ReferenceSurface& reference,
                        const SmoothingOptions& options) {
   validate(options);
   if (mesh.n_cells() == 0) return {};
-  return Smoother(mesh, reference, options).run();
+  const double before = hausdorff_distance(mesh, reference).ratio();
+  // The passes look at fewer samples than the final word; where that is over the limit, they start
+  // again with a little less room.
+  for (double room : {1.0, 0.8, 0.6}) {
+    Transaction attempt(mesh);
+    const double limit = room * options.hausdorff_limit_rel * reference.bounding_box_diagonal();
+    SmoothingReport report = Smoother(mesh, reference, options, limit).run();
+    report.initial_hausdorff_rel = before;
+    report.hausdorff_rel = hausdorff_distance(mesh, reference).ratio();
+    if (report.hausdorff_rel > std::max(before, options.hausdorff_limit_rel)) continue;
+    attempt.commit();
+    return report;
+  }
+  Transaction attempt(mesh);
+  SmoothingReport report = Smoother(mesh, reference, untouched(options), 0).run();
+  report.initial_hausdorff_rel = report.hausdorff_rel = before;
+  return report;
 }
 
 }  // namespace hexweft

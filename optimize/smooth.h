@@ -23,7 +23,7 @@ void validate(const SmoothingOptions& options);  ///< \throws InputError
 struct SmoothingReport {
   double initial_min_scaled_jacobian = 1, min_scaled_jacobian = 1;
   double initial_mean_scaled_jacobian = 1, mean_scaled_jacobian = 1;
-  double initial_hausdorff_rel = 0, hausdorff_rel = 0;  ///< on the samples of SurfaceDistance
+  double initial_hausdorff_rel = 0, hausdorff_rel = 0;  ///< of hausdorff_distance()
   int accepted_global = 0, accepted_local = 0, trials = 0;
 };
 

@@ -6,6 +6,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include <Eigen/Geometry>
+
 #include "ovm/errors.h"
 
 namespace hexweft {
@@ -20,6 +22,17 @@ QuadPoints points_of(const HexMesh& mesh, HalfFaceHandle hf) {
 bool on_boundary(const HexMesh& mesh, int side) {
   return side < 6 * mesh.cell_slots() && mesh.is_live(CellHandle(side / 6)) &&
          mesh.is_boundary(HalfFaceHandle(side));
+}
+
+double area_of(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
+  return (b - a).cross(c - a).norm() / 2;
+}
+
+double mean_area(const ReferenceSurface& reference) {
+  const auto& p = reference.points();
+  double sum = 0;
+  for (const auto& t : reference.triangles()) sum += area_of(p.col(t[0]), p.col(t[1]), p.col(t[2]));
+  return sum / static_cast<double>(reference.triangles().size());
 }
 
 /// A grid over the reference's box with cells about the size of its triangles.
@@ -58,8 +71,11 @@ class SurfaceDistance::VertexAndEdgeCache {
 
 SurfaceDistance::SurfaceDistance(const HexMesh& mesh, const ReferenceSurface& reference,
                                  const SurfaceDistanceOptions& options)
-    : reference_(reference), options_(options), grid_(make_grid(reference)) {
-  if (options.mesh_levels < 0 || options.reference_levels < 0) {
+    : reference_(reference),
+      options_(options),
+      mean_area_(mean_area(reference)),
+      grid_(make_grid(reference)) {
+  if (options.mesh_levels < 0 || options.reference_levels < 0 || options.suspect_levels < 0) {
     throw InputError("a number of subdivisions is negative, expected >= 0");
   }
   make_samples(options.reference_levels);
@@ -77,8 +93,18 @@ void SurfaceDistance::make_samples(int levels) {
       const auto edge = std::minmax(t[i], t[(i + 1) % 3]);
       if (edges.insert(edge).second) add((points.col(edge.first) + points.col(edge.second)) / 2);
     }
-    add_samples(points.col(t[0]), points.col(t[1]), points.col(t[2]), levels);
+    const Eigen::Vector3d a = points.col(t[0]), b = points.col(t[1]), c = points.col(t[2]);
+    add_samples(a, b, c, levels + levels_for(a, b, c));
   }
+}
+
+int SurfaceDistance::levels_for(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                                const Eigen::Vector3d& c) const {
+  constexpr int kMost = 4;
+  int levels = 0;
+  for (double area = area_of(a, b, c) / 4; area >= mean_area_ && levels < kMost; area /= 4)
+    ++levels;
+  return levels;
 }
 
 void SurfaceDistance::add_samples(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
@@ -121,7 +147,7 @@ double SurfaceDistance::distance_of_part(const Eigen::Vector3d& a, const Eigen::
                    distance_of_part(ab, bc, ca, levels - 1)});
 }
 
-double SurfaceDistance::forward_distance(const HexMesh& mesh, int side,
+double SurfaceDistance::forward_distance(const HexMesh& mesh, int side, double limit,
                                          VertexAndEdgeCache& cache) const {
   const HalfFaceHandle hf(side);
   const QuadPoints& q = grid_.points(side);
@@ -133,8 +159,16 @@ double SurfaceDistance::forward_distance(const HexMesh& mesh, int side,
     d = std::max(d, cache.vertex(vertices[i], [&] { return at(q[i]); }));
     d = std::max(d, cache.edge(edges[i], [&] { return at((q[i] + q[(i + 1) % 4]) / 2); }));
   }
-  d = std::max(d, distance_of_part(q[0], q[1], q[2], options_.mesh_levels));
-  return std::max(d, distance_of_part(q[2], q[3], q[0], options_.mesh_levels));
+  const auto parts = [&](int levels) {
+    const int first = levels + levels_for(q[0], q[1], q[2]),
+              second = levels + levels_for(q[2], q[3], q[0]);
+    return std::max(distance_of_part(q[0], q[1], q[2], first),
+                    distance_of_part(q[2], q[3], q[0], second));
+  };
+  d = std::max(d, parts(options_.mesh_levels));
+  const bool suspect = d > options_.suspect_rel * limit && d <= limit;
+  if (!suspect || options_.suspect_levels == 0) return d;
+  return std::max(d, parts(options_.mesh_levels + options_.suspect_levels));
 }
 
 /// Brings the grid up to date. \return whether the side changed
@@ -177,7 +211,7 @@ double SurfaceDistance::update(const HexMesh& mesh, const std::vector<int>& chan
   VertexAndEdgeCache cache;
   for (int side : changed) {
     if (!grid_.contains(side)) continue;
-    forward_[side] = forward_distance(mesh, side, cache);
+    forward_[side] = forward_distance(mesh, side, limit, cache);
     if (forward_[side] > limit) {
       given_up_ = true;
       return forward_[side];

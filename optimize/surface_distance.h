@@ -19,10 +19,13 @@
 namespace hexweft {
 
 /// Sample density, a compromise between a trial's cost and what it can miss. The samples are the
-/// corners, edge midpoints and centroids of triangles, of their four parts too with more levels.
+/// corners, edge midpoints and centroids of triangles, of their four parts too with more levels. A
+/// triangle four times as large as the reference's are on average gets one level more, and so on.
 struct SurfaceDistanceOptions {
   int mesh_levels = 0;       ///< ≥ 0, subdivisions of a boundary triangle of the mesh
   int reference_levels = 0;  ///< ≥ 0, subdivisions of a triangle of the reference
+  int suspect_levels = 2;    ///< ≥ 0, more of these for a side whose samples come near the limit
+  double suspect_rel = 0.5;  ///< (0, 1], of the limit: how near that is
 };
 
 /// Holds, for every boundary side of the mesh, its samples' largest distance to the reference, and
@@ -78,7 +81,10 @@ class SurfaceDistance {
   void add_samples(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
                    int levels);
   bool update_side(const HexMesh& mesh, int side);
-  double forward_distance(const HexMesh& mesh, int side, VertexAndEdgeCache& cache) const;
+  int levels_for(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                 const Eigen::Vector3d& c) const;
+  double forward_distance(const HexMesh& mesh, int side, double limit,
+                          VertexAndEdgeCache& cache) const;
   double distance_of_part(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                           const Eigen::Vector3d& c, int levels) const;
   double update(const HexMesh& mesh, const std::vector<int>& changed, double limit);
@@ -86,6 +92,7 @@ class SurfaceDistance {
 
   ReferenceSurface reference_;
   SurfaceDistanceOptions options_;
+  double mean_area_;  // of the reference's triangles, model units²
   std::vector<Sample> samples_;
   QuadGrid grid_;                // boundary sides by half-face
   std::vector<double> forward_;  // by half-face; 0 where not on the boundary

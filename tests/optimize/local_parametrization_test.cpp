@@ -1,0 +1,205 @@
+// Relaxing a region of a mesh on its surface.
+#include "optimize/local_parametrization.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "optimize/hausdorff.h"
+#include "ovm/transaction.h"
+#include "tests/optimize/test_meshes.h"
+
+namespace hexweft {
+namespace {
+
+TEST(Region, PutsFreeVerticesFirstAndTheRimLast) {
+  const HexMesh mesh = make_grid({4, 4, 4});
+  const CellHandle seed[1] = {CellHandle(0)};
+  const auto cells = grow_cells(mesh, seed, 1);
+  EXPECT_EQ(cells.size(), 8u);
+  const Region region = make_region(mesh, cells);
+  EXPECT_EQ(region.n_free, 8);  // those with all coordinates 0 or 1
+  EXPECT_EQ(region.vertices.size(), 27u);
+  EXPECT_EQ(region.quads.size(), 12u);
+  EXPECT_EQ(region.surface.size(), 7u);
+  for (int v = 0; v < region.n_free; ++v) EXPECT_LE(region.points.col(v).maxCoeff(), 1);
+}
+
+TEST(Region, RefusesDeadAndRepeatedCells) {
+  HexMesh mesh = make_grid({2, 2, 2});
+  const CellHandle twice[2] = {CellHandle(1), CellHandle(1)};
+  EXPECT_THROW(make_region(mesh, twice), InputError);
+  mesh.delete_cell(CellHandle(1));
+  EXPECT_THROW(make_region(mesh, {twice, 1}), InputError);
+}
+
+TEST(TargetCuboids, AreTheCellsThemselvesOnAGrid) {
+  const HexMesh mesh = make_grid(
+      {3, 3, 3}, Eigen::AlignedBox3d(Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(3, 6, 1.5)));
+  for (const TargetCuboid& t : target_cuboids(make_region(mesh, all_cells(mesh)), {})) {
+    EXPECT_LT((t.lengths - Eigen::Vector3d(1, 2, 0.5)).norm(), 1e-12);
+  }
+}
+
+TEST(TargetCuboids, SpreadAStretchedLayerOverItsNeighbors) {
+  HexMesh mesh = make_grid({9, 1, 1});
+  for (VertexHandle v : mesh.vertices()) {
+    if (mesh.point(v)[0] > 4.5) mesh.set_point(v, mesh.point(v) + Eigen::Vector3d(2, 0, 0));
+  }
+  const auto targets =
+      target_cuboids(make_region(mesh, all_cells(mesh)), {.size_blend = 1, .blend_passes = 1});
+  EXPECT_NEAR(targets[4].lengths[0], 5. / 3, 1e-12);
+  EXPECT_NEAR(targets[3].lengths[0], 5. / 3, 1e-12);
+  EXPECT_NEAR(targets[0].lengths[0], 1, 1e-12);
+}
+
+TEST(Parametrize, KeepsTheRimAndImprovesTheRegion) {
+  HexMesh mesh = make_octree_like(Shape::blob, 12, 1);
+  const auto reference = make_reference_surface(mesh);
+  perturb(mesh, 0.02, true, 2);
+  const HexMesh before = mesh;
+  const CellHandle seed[1] = {CellHandle(40)};
+  const auto cells = grow_cells(mesh, seed, 3);
+  const Region region = make_region(mesh, cells);
+  const ParametrizationReport r = parametrize(mesh, cells, reference);
+  EXPECT_TRUE(r.valid());
+  double mean_before = 0;
+  for (double sj : scaled_jacobians(region.points, region.hexes)) mean_before += sj;
+  EXPECT_GT(r.mean_scaled_jacobian, mean_before / static_cast<double>(region.hexes.size()));
+  EXPECT_GE(r.min_scaled_jacobian, 0.9 * r.initial_min_scaled_jacobian);
+  EXPECT_GT(r.max_move, 0);
+  std::vector<char> free(mesh.vertex_slots(), 0);
+  for (int i = 0; i < region.n_free; ++i) free[region.vertices[i].idx] = 1;
+  for (VertexHandle v : mesh.vertices()) {
+    if (free[v.idx]) continue;
+    EXPECT_EQ(mesh.point(v), before.point(v));
+  }
+}
+
+TEST(Parametrize, LeavesSurfaceVerticesOnTheReference) {
+  HexMesh mesh = make_octree_like(Shape::sphere, 10);
+  const auto reference = make_reference_surface(mesh);
+  perturb(mesh, 0.01, true, 3);
+  const ParametrizationReport r = parametrize(mesh, all_cells(mesh), reference);
+  EXPECT_TRUE(r.valid());
+  EXPECT_EQ(r.on_surface, 1);
+  for (VertexHandle v : mesh.vertices()) {
+    if (!mesh.is_boundary(v)) continue;
+    EXPECT_LT(reference.closest(mesh.point(v)).distance, 1e-12);
+  }
+}
+
+TEST(Parametrize, FittingHalvesTheErrorOfACoarseBall) {
+  const auto reference = make_reference_surface(make_ball(40));
+  const HexMesh coarse = make_ball(5);
+  double distance[2];
+  for (SurfaceTreatment treatment : {SurfaceTreatment::project, SurfaceTreatment::fit}) {
+    HexMesh mesh = coarse;
+    ParametrizationOptions options;
+    options.surface.treatment = treatment;
+    EXPECT_TRUE(parametrize(mesh, all_cells(mesh), reference, options).valid());
+    distance[treatment == SurfaceTreatment::fit] = hausdorff_distance(mesh, reference).distance();
+  }
+  EXPECT_LT(distance[1], 0.65 * distance[0]);
+}
+
+TEST(Parametrize, KeepsTheEdgesAndCornersOfACube) {
+  HexMesh mesh = make_grid({6, 6, 6});
+  const auto reference = make_reference_surface(mesh);
+  perturb(mesh, 0.2, false, 4);
+  for (SurfaceTreatment treatment : {SurfaceTreatment::project, SurfaceTreatment::fit}) {
+    ParametrizationOptions options;
+    options.surface.treatment = treatment;
+    EXPECT_TRUE(parametrize(mesh, all_cells(mesh), reference, options).valid());
+    EXPECT_LT(hausdorff_distance(mesh, reference).ratio(), 1e-6);
+  }
+}
+
+TEST(Parametrize, UntanglesInvertedStarts) {
+  for (unsigned seed = 0; seed < 5; ++seed) {
+    HexMesh mesh = make_grid({6, 6, 6});
+    const auto reference = make_reference_surface(mesh);
+    perturb(mesh, 0.8, false, seed);
+    ASSERT_LT(min_scaled_jacobian(mesh), 0);
+    const ParametrizationReport r = parametrize(mesh, all_cells(mesh), reference);
+    EXPECT_TRUE(r.untangled);
+    EXPECT_TRUE(r.valid()) << "seed " << seed;
+    EXPECT_NEAR(r.min_scaled_jacobian, min_scaled_jacobian(mesh), 1e-12);
+    EXPECT_GT(r.min_scaled_jacobian, 0.8);
+  }
+}
+
+TEST(Parametrize, ReportsWhatItCouldNotRepair) {
+  HexMesh mesh = make_grid({3, 3, 3});
+  const auto reference = make_reference_surface(mesh);
+  perturb(mesh, 2, false, 1);
+  ParametrizationOptions options;
+  options.untangling_rounds = 0;
+  EXPECT_EQ(parametrize(mesh, all_cells(mesh), reference, options).failure,
+            ParametrizationFailure::still_inverted);
+  HexMesh ball = make_ball(4);
+  options.min_scaled_jacobian = 0.99;
+  EXPECT_EQ(parametrize(ball, all_cells(ball), make_reference_surface(ball), options).failure,
+            ParametrizationFailure::low_quality);
+}
+
+TEST(Parametrize, DrawsVerticesToTheirGoals) {
+  HexMesh mesh = make_grid({6, 6, 6});
+  const auto reference = make_reference_surface(mesh);
+  VertexHandle inner;
+  for (VertexHandle v : mesh.vertices()) {
+    if (mesh.point(v) == Eigen::Vector3d(3, 3, 3)) inner = v;
+  }
+  const VertexGoal goal[1] = {{inner, {3.3, 3, 3}}};
+  ParametrizationOptions options;
+  options.goal_weight = 1e3;
+  EXPECT_TRUE(parametrize(mesh, all_cells(mesh), reference, options, goal).valid());
+  EXPECT_LT((mesh.point(inner) - goal[0].point).norm(), 0.1);
+}
+
+TEST(Parametrize, DoesNotDependOnTheUnitOfLength) {
+  HexMesh mesh = make_octree_like(Shape::dumbbell, 12);
+  const auto reference = make_reference_surface(mesh);
+  perturb(mesh, 0.02, true, 5);
+  HexMesh unit = mesh;
+  parametrize(unit, all_cells(unit), reference);
+  for (double scale : {0x1p-10, 0x1p10}) {  // powers of two scale without rounding
+    HexMesh scaled = mesh;
+    Eigen::Matrix3Xd points = scale * reference.points();
+    const ReferenceSurface scaled_reference(std::move(points), reference.triangles());
+    for (VertexHandle v : scaled.vertices()) scaled.set_point(v, scale * mesh.point(v));
+    parametrize(scaled, all_cells(scaled), scaled_reference);
+    for (VertexHandle v : unit.vertices()) {
+      EXPECT_LT((scaled.point(v) / scale - unit.point(v)).norm(), 1e-6);
+    }
+  }
+}
+
+TEST(Parametrize, SameInputSameBytesAndRollsBack) {
+  HexMesh mesh = make_octree_like(Shape::torus, 12);
+  const auto reference = make_reference_surface(mesh);
+  perturb(mesh, 0.02, true, 6);
+  HexMesh a = mesh, b = mesh;
+  parametrize(a, all_cells(a), reference);
+  {
+    Transaction trial(b);
+    parametrize(b, all_cells(b), reference);
+  }
+  EXPECT_EQ(points_of(b), points_of(mesh));
+  parametrize(b, all_cells(b), reference);
+  EXPECT_EQ(points_of(a), points_of(b));
+}
+
+TEST(Parametrize, RefusesBadOptions) {
+  HexMesh mesh = make_grid({2, 2, 2});
+  const auto reference = make_reference_surface(mesh);
+  ParametrizationOptions options;
+  options.max_iterations = 0;
+  EXPECT_THROW(parametrize(mesh, all_cells(mesh), reference, options), InputError);
+  options = {};
+  options.surface.feature_angle_deg = 0;
+  EXPECT_THROW(parametrize(mesh, all_cells(mesh), reference, options), InputError);
+}
+
+}  // namespace
+}  // namespace hexweft

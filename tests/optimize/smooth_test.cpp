@@ -1,0 +1,60 @@
+// Smoothing a whole mesh.
+#include "optimize/smooth.h"
+
+#include <gtest/gtest.h>
+
+#include "optimize/hausdorff.h"
+#include "tests/optimize/test_meshes.h"
+
+namespace hexweft {
+namespace {
+
+TEST(Smooth, NeverLowersTheLeastScaledJacobianNorLeavesTheSurface) {
+  for (Shape shape : kShapes) {
+    HexMesh mesh = make_octree_like(shape, 8, 1);
+    const auto reference = make_reference_surface(mesh);
+    const double before = min_scaled_jacobian(mesh);
+    const SmoothingReport r = smooth(mesh, reference, {.local_trials = 20});
+    EXPECT_GE(r.min_scaled_jacobian, before - 1e-12) << name(shape);
+    EXPECT_NEAR(r.min_scaled_jacobian, min_scaled_jacobian(mesh), 1e-12);
+    EXPECT_NEAR(r.hausdorff_rel, hausdorff_distance(mesh, reference).ratio(), 1e-12);
+    EXPECT_LE(r.hausdorff_rel, 0.01) << name(shape);
+  }
+}
+
+TEST(Smooth, BringsAPerturbedGridBack) {
+  HexMesh mesh = make_grid({5, 5, 5});
+  const auto reference = make_reference_surface(mesh);
+  perturb(mesh, 0.4, false, 2);
+  const SmoothingReport r = smooth(mesh, reference);
+  EXPECT_GT(r.min_scaled_jacobian, 0.98);
+  EXPECT_LT(r.hausdorff_rel, 1e-5);
+}
+
+TEST(Smooth, DoesNothingItIsNotAllowedTo) {
+  HexMesh mesh = make_octree_like(Shape::blob, 8, 1);
+  const auto before = points_of(mesh);
+  const SmoothingReport r =
+      smooth(mesh, make_reference_surface(mesh), {.global_rounds = 0, .local_trials = 0});
+  EXPECT_EQ(r.trials, 0);
+  EXPECT_EQ(points_of(mesh), before);
+  EXPECT_EQ(r.min_scaled_jacobian, r.initial_min_scaled_jacobian);
+}
+
+TEST(Smooth, SameInputSameBytes) {
+  HexMesh a = make_octree_like(Shape::double_torus, 8), b = a;
+  const auto reference = make_reference_surface(a);
+  smooth(a, reference, {.local_trials = 10});
+  smooth(b, reference, {.local_trials = 10});
+  EXPECT_EQ(points_of(a), points_of(b));
+}
+
+TEST(Smooth, TakesAnEmptyMeshAndRefusesBadOptions) {
+  HexMesh mesh, box = make_grid({1, 1, 1});
+  const auto reference = make_reference_surface(box);
+  EXPECT_EQ(smooth(mesh, reference).trials, 0);
+  EXPECT_THROW(smooth(box, reference, {.hausdorff_limit_rel = 0}), InputError);
+}
+
+}  // namespace
+}  // namespace hexweft

@@ -1,0 +1,144 @@
+// The distance kept through edits against the distance computed anew.
+#include "optimize/surface_distance.h"
+
+#include <gtest/gtest.h>
+
+#include "optimize/hausdorff.h"
+#include "ovm/transaction.h"
+#include "tests/optimize/test_meshes.h"
+
+namespace hexweft {
+namespace {
+
+constexpr double kRounding = 1e-12;
+
+/// Moves the boundary vertices near a random one.
+void dent(HexMesh& mesh, Random& random) {
+  std::vector<VertexHandle> boundary;
+  for (VertexHandle v : mesh.vertices()) {
+    if (mesh.is_boundary(v)) boundary.push_back(v);
+  }
+  const Eigen::Vector3d centre =
+      mesh.point(boundary[random.below(static_cast<int>(boundary.size()))]);
+  for (VertexHandle v : boundary) {
+    if ((mesh.point(v) - centre).norm() < 0.4)
+      mesh.set_point(v, mesh.point(v) + random.in_cube(0.03));
+  }
+}
+
+TEST(SurfaceDistance, StartsAtZeroOnItsOwnReference) {
+  const HexMesh mesh = make_octree_like(Shape::torus, 10);
+  const SurfaceDistance d(mesh, make_reference_surface(mesh));
+  EXPECT_LT(d.ratio(), 1e-15);
+}
+
+TEST(SurfaceDistance, IsConservativeAndCloseToExactThroughRandomChanges) {
+  HexMesh mesh = make_octree_like(Shape::blob, 10, 1);
+  const auto reference = make_reference_surface(mesh);
+  SurfaceDistance kept(mesh, reference);
+  Random random(2);
+  for (int i = 0; i < 20; ++i) {
+    dent(mesh, random);
+    const double d = kept.after_change(mesh);
+    kept.commit();
+    const SurfaceDistance anew(mesh, reference);
+    EXPECT_NEAR(kept.forward(), anew.forward(), kRounding);
+    EXPECT_GE(kept.backward(), anew.backward() - kRounding);
+    EXPECT_LT(kept.backward(), 1.5 * anew.backward() + kRounding);
+    EXPECT_EQ(d, kept.distance());
+    EXPECT_LE(d, 1.5 * hausdorff_distance(mesh, reference).distance());
+  }
+}
+
+TEST(SurfaceDistance, LimitsToTouchedCellsWithTheSameResult) {
+  HexMesh mesh = make_ball(6);
+  const auto reference = make_reference_surface(mesh);
+  SurfaceDistance by_cells(mesh, reference), by_all(mesh, reference);
+  Random random(3);
+  for (int i = 0; i < 10; ++i) {
+    const HexMesh before = mesh;
+    dent(mesh, random);
+    std::vector<CellHandle> touched;
+    for (CellHandle c : mesh.cells()) {
+      for (VertexHandle v : mesh.vertices(c)) {
+        if (mesh.point(v) != before.point(v)) {
+          touched.push_back(c);
+          break;
+        }
+      }
+    }
+    EXPECT_EQ(by_cells.after_change(mesh, touched), by_all.after_change(mesh));
+    by_cells.commit();
+    by_all.commit();
+  }
+}
+
+TEST(SurfaceDistance, FollowsCellsThatComeAndGo) {
+  HexMesh mesh = make_grid({4, 4, 4});
+  const auto reference = make_reference_surface(mesh);
+  SurfaceDistance kept(mesh, reference);
+  for (int c : {0, 21, 63, 5}) {
+    mesh.delete_cell(CellHandle(c));
+    kept.after_change(mesh);
+    kept.commit();
+    const SurfaceDistance anew(mesh, reference);
+    EXPECT_NEAR(kept.forward(), anew.forward(), kRounding);
+    EXPECT_NEAR(kept.backward(), anew.backward(), kRounding);
+  }
+  EXPECT_NEAR(kept.distance(), 2, kRounding);  // the inner corner of the cavity
+}
+
+TEST(SurfaceDistance, RollbackRestoresEverything) {
+  HexMesh mesh = make_ball(6);
+  SurfaceDistance d(mesh, make_reference_surface(mesh));
+  Random random(4);
+  dent(mesh, random);
+  d.after_change(mesh);
+  d.commit();
+  const double forward = d.forward(), backward = d.backward();
+  const auto by_side = d.distance_by_halfface();
+  for (double limit : {1e9, 1e-3}) {
+    Transaction trial(mesh);
+    dent(mesh, random);
+    mesh.delete_cell(CellHandle(0));
+    d.after_change(mesh, limit);
+    trial.rollback();
+    d.rollback();
+    EXPECT_EQ(d.forward(), forward);
+    EXPECT_EQ(d.backward(), backward);
+    EXPECT_EQ(d.distance_by_halfface(), by_side);
+    EXPECT_EQ(d.after_change(mesh), std::max(forward, backward));  // nothing has changed
+  }
+}
+
+TEST(SurfaceDistance, GivesUpOverTheLimitAndThenRefusesToCommit) {
+  HexMesh mesh = make_grid({3, 3, 3});
+  SurfaceDistance d(mesh, make_reference_surface(mesh));
+  Transaction trial(mesh);
+  mesh.delete_cell(CellHandle(0));
+  EXPECT_GT(d.after_change(mesh, 0.1), 0.1);
+  EXPECT_THROW(d.commit(), InputError);
+  d.rollback();
+  EXPECT_LT(d.distance(), kRounding);
+}
+
+TEST(SurfaceDistance, TellsWhereTheSurfaceIsFar) {
+  HexMesh mesh = make_grid({3, 3, 3});
+  SurfaceDistance d(mesh, make_reference_surface(mesh));
+  for (VertexHandle v : mesh.vertices()) {
+    if (mesh.point(v) == Eigen::Vector3d(1, 1, 3)) mesh.set_point(v, {1, 1, 3.2});
+  }
+  d.after_change(mesh);
+  const auto by_side = d.distance_by_halfface();
+  int far = 0;
+  for (HalfFaceHandle hf : mesh.boundary_halffaces()) {
+    bool at_spike = false;
+    for (VertexHandle v : mesh.vertices(hf)) at_spike |= mesh.point(v)[2] > 3.1;
+    if (by_side[hf.idx] > 0.1) ++far;
+    EXPECT_EQ(by_side[hf.idx] > 0.1, at_spike);
+  }
+  EXPECT_EQ(far, 4);
+}
+
+}  // namespace
+}  // namespace hexweft
