@@ -94,9 +94,20 @@ std::string read_file(const fs::path& path) {
   return content;
 }
 
+void check_writable(const fs::path& path) {
+  if (path == "-") return;
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (fs::is_directory(status)) fail(path, false, EISDIR);
+  const bool is_device = fs::exists(status) && !fs::is_regular_file(status);
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  if (::access(is_device ? path.c_str() : folder.c_str(), W_OK) != 0) fail(path, false, errno);
+}
+
 void write_file(const fs::path& path, std::string_view content) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
+  if (fs::is_directory(status)) fail(path, false, EISDIR);
   if (path == "-" || (fs::exists(status) && !fs::is_regular_file(status))) {
     return write_directly(path, content);
   }

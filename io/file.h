@@ -18,6 +18,10 @@ std::string read_file(const std::filesystem::path& path);
 /// cannot be written: reason"; an existing file is then as it was
 void write_file(const std::filesystem::path& path, std::string_view content);
 
+/// Whether write_file can be expected to succeed, so that a long computation is not lost at its
+/// end. \throws FormatError as write_file if the folder is not there or must not be written to
+void check_writable(const std::filesystem::path& path);
+
 /// The name of a file for messages.
 std::string display_name(const std::filesystem::path& path, bool reading);
 

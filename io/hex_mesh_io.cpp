@@ -30,7 +30,7 @@ const Format& format_to_write(const std::filesystem::path& path, const WriteOpti
   if (path == "-") return format_named("vtk");
   if (const Format* format = format_of_extension(path)) return *format;
   throw InputError(path.string() + ": expected a file name that ends in one of " +
-                   all_extensions() + ", or a format");
+                   all_extensions() + ", or the name of a format");
 }
 
 void check(const WriteOptions& options, const Format& format) {
@@ -72,6 +72,11 @@ WriteReport write_hex_mesh(const std::filesystem::path& path, const HexMesh& mes
   WriteReport report;
   write_file(path, text_of(mesh, format_to_write(path, options), options, report));
   return report;
+}
+
+void check_hex_mesh_output(const std::filesystem::path& path, const WriteOptions& options) {
+  check(options, format_to_write(path, options));
+  check_writable(path);
 }
 
 std::string write_hex_mesh_text(const HexMesh& mesh, const WriteOptions& options,

@@ -67,6 +67,10 @@ HexMesh read_hex_mesh_text(std::string_view text, const std::string& name,
 WriteReport write_hex_mesh(const std::filesystem::path& path, const HexMesh& mesh,
                            const WriteOptions& options = {});
 
+/// Throws what write_hex_mesh would throw of what can be known before there is a mesh: an unknown
+/// format, a folder that is not there. For programs that compute long before they write.
+void check_hex_mesh_output(const std::filesystem::path& path, const WriteOptions& options = {});
+
 /// As write_hex_mesh; `options.format` empty means "vtk".
 std::string write_hex_mesh_text(const HexMesh& mesh, const WriteOptions& options = {},
                                 WriteReport* report = nullptr);

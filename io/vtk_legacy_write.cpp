@@ -1,4 +1,5 @@
 #include <limits>
+#include <utility>
 
 #include "io/number_text.h"
 #include "io/vtk_attributes.h"
@@ -26,7 +27,7 @@ class VtkWriter {
 
  private:
   void write_points(const HexMesh& mesh) {
-    line("POINTS " + std::to_string(mesh.n_vertices()) + " double");
+    line("POINTS ", std::to_string(mesh.n_vertices()), " double");
     for (VertexHandle v : mesh.vertices()) {
       for (double x : mesh.point(v)) put(x);
       end_row();
@@ -36,14 +37,14 @@ class VtkWriter {
   void write_cells(const HexMesh& mesh) {
     const std::vector<int> number = vertex_numbers(mesh);
     const int n = mesh.n_cells();
-    line("CELLS " + std::to_string(n) + " " + std::to_string(9LL * n));
+    line("CELLS ", std::to_string(n), " ", std::to_string(9LL * n));
     for (CellHandle c : mesh.cells()) {
       put(std::int32_t{8});
       for (VertexHandle v : mesh.vertices(c)) put(std::int32_t{number[v.idx]});
       end_row();
     }
     end_block();
-    line("CELL_TYPES " + std::to_string(n));
+    line("CELL_TYPES ", std::to_string(n));
     for (int i = 0; i < n; ++i) {
       put(std::int32_t{12});
       end_row();
@@ -55,7 +56,11 @@ class VtkWriter {
   void write_rows(const DataArray& array);
   static std::string type_name(const DataArray& array);
 
-  void line(const std::string& text) { out_ += text + '\n'; }
+  template <class... Part>
+  void line(const Part&... parts) {
+    ((out_ += parts), ...);
+    out_ += '\n';
+  }
   template <class T>
   void put(T value) {
     if (options_.binary) {
@@ -87,16 +92,16 @@ std::string VtkWriter::type_name(const DataArray& array) {
 
 void VtkWriter::write_data(const char* section, int rows, const std::vector<DataArray>& arrays) {
   if (arrays.empty() || rows == 0) return;
-  line(section + (" " + std::to_string(rows)));
+  line(section, " ", std::to_string(rows));
   std::vector<const DataArray*> others;
   for (const DataArray& array : arrays) {
     const std::string name = encode_vtk_name(array.name);
     if (array.components == 1) {
-      line("SCALARS " + name + " " + type_name(array) + " 1");
+      line("SCALARS ", name, " ", type_name(array), " 1");
       line("LOOKUP_TABLE default");
       write_rows(array);
     } else if (array.components == 3 && array.kind == ValueKind::real) {
-      line("VECTORS " + name + " double");
+      line("VECTORS ", name, " double");
       write_rows(array);
     } else {
       others.push_back(&array);
@@ -106,10 +111,10 @@ void VtkWriter::write_data(const char* section, int rows, const std::vector<Data
 }
 
 void VtkWriter::write_field_arrays(int rows, const std::vector<const DataArray*>& arrays) {
-  line("FIELD FieldData " + std::to_string(arrays.size()));
+  line("FIELD FieldData ", std::to_string(arrays.size()));
   for (const DataArray* array : arrays) {
-    line(encode_vtk_name(array->name) + " " + std::to_string(array->components) + " " +
-         std::to_string(rows) + " " + type_name(*array));
+    line(encode_vtk_name(array->name), " ", std::to_string(array->components), " ",
+         std::to_string(rows), " ", type_name(*array));
     write_rows(*array);
   }
 }

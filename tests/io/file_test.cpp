@@ -74,6 +74,16 @@ TEST_F(WriteFile, AFailureNamesThePathAndLeavesNothing) {
   EXPECT_EQ(n_entries(), 1);
 }
 
+TEST_F(WriteFile, TheOutputCanBeCheckedBeforehand) {
+  EXPECT_NO_THROW(check_hex_mesh_output(folder_ / "a.vtk"));
+  EXPECT_NO_THROW(check_hex_mesh_output("-"));
+  EXPECT_THROW(check_hex_mesh_output(folder_ / "missing" / "a.vtk"), FormatError);
+  EXPECT_THROW(check_hex_mesh_output(folder_, {.format = "vtk"}), FormatError);
+  EXPECT_THROW(check_hex_mesh_output(folder_ / "a.xyz"), InputError);
+  EXPECT_THROW(check_hex_mesh_output(folder_ / "a.mesh", {.binary = true}), InputError);
+  EXPECT_EQ(n_entries(), 0);
+}
+
 TEST_F(WriteFile, ABadRequestLeavesTheTargetAlone) {
   write_file(folder_ / "a.mesh", "precious");
   EXPECT_THROW(write_hex_mesh(folder_ / "a.mesh", unit_cube(), {.binary = true}), InputError);

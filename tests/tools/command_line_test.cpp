@@ -1,0 +1,123 @@
+// The programs as a stranger meets them.
+#include <nlohmann/json.hpp>
+
+#include "io/hex_mesh_io.h"
+#include "tests/tools/run_tool.h"
+
+namespace hexweft::test {
+namespace {
+
+using CommandLine = ToolTest;
+
+TEST_F(CommandLine, HelpAndVersionSucceed) {
+  for (const std::string program : {"hexweft-convert", "hexweft-generate"}) {
+    const ToolRun help = run(program + " --help");
+    EXPECT_EQ(help.exit_code, 0);
+    EXPECT_THAT(help.out, testing::HasSubstr("--output"));
+    EXPECT_EQ(help.err, "");
+    const ToolRun version = run(program + " --version");
+    EXPECT_EQ(version.exit_code, 0);
+    EXPECT_THAT(version.out, testing::MatchesRegex(program + " [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+  }
+}
+
+TEST_F(CommandLine, WrongUsageIsExitCode2AndOneSentence) {
+  for (const std::string arguments : {"",
+                                      "grid",
+                                      "grid -o",
+                                      "cube -o x.vtk",
+                                      "grid -o x.vtk --resolution 0",
+                                      "grid -o x.vtk --resolution 3.5",
+                                      "grid -o x.vtk --resolution many",
+                                      "grid -o x.vtk --resolution nan",
+                                      "grid -o x.vtk --resolution 99999999999999999999",
+                                      "grid -o x.vtk --sheets -1",
+                                      "grid -o x.vtk --seed -1",
+                                      "grid -o x.vtk --precision 18",
+                                      "grid -o x.vtk --no-such-option",
+                                      "grid -o x.vtk extra",
+                                      "grid -o x.stl",
+                                      "grid -o x.mesh --binary",
+                                      "grid -o x.vtk --format stl",
+                                      "grid -o - --json -",
+                                      "octree-like -o x.vtk --shape cow",
+                                      "octree-like -o x.vtk --resolution 3"}) {
+    SCOPED_TRACE(arguments);
+    const ToolRun result = run("hexweft-generate " + arguments);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_EQ(result.out, "");
+    EXPECT_THAT(result.err, IsSentenceOf("hexweft-generate"));
+  }
+  EXPECT_EQ(n_files(), 0);
+}
+
+TEST_F(CommandLine, FilesThatCannotBeUsedAreExitCode3) {
+  write_file(file("broken.vtk"), "# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\n");
+  write_file(file("noise"), "not a mesh");
+  EXPECT_EQ(run("hexweft-generate grid -o good.vtk").exit_code, 0);
+  EXPECT_EQ(n_files(), 3);
+  for (const std::string arguments :
+       {"missing.vtk -o x.vtk", ". -o x.vtk", "broken.vtk -o x.vtk", "noise -o x.vtk", "- -o x.vtk",
+        "good.vtk --input-format medit -o x.vtk", "good.vtk -o missing/x.vtk",
+        "good.vtk -o /dev/full --format vtk", "good.vtk -o - >/dev/full"}) {
+    SCOPED_TRACE(arguments);
+    const ToolRun result = run("hexweft-convert " + arguments);
+    EXPECT_EQ(result.exit_code, 3);
+    EXPECT_EQ(result.out, "");
+    EXPECT_THAT(result.err, IsSentenceOf("hexweft-convert"));
+  }
+  EXPECT_EQ(n_files(), 3);
+  EXPECT_EQ(run("hexweft-convert broken.vtk -o x.vtk").err,
+            "hexweft-convert: broken.vtk:4: expected UNSTRUCTURED_GRID, found \"POLYDATA\"\n");
+}
+
+TEST_F(CommandLine, AFailureLeavesTheOutputAsItWas) {
+  write_file(file("noise"), "not a mesh");
+  write_file(file("out.vtk"), "precious");
+  EXPECT_EQ(run("hexweft-convert noise -o out.vtk").exit_code, 3);
+  EXPECT_EQ(read_file(file("out.vtk")), "precious");
+  EXPECT_EQ(n_files(), 2);
+}
+
+TEST_F(CommandLine, ConversionThereAndBackIsExact) {
+  EXPECT_EQ(run("hexweft-generate octree-like --shape torus --resolution 10 -o a.vtk").exit_code,
+            0);
+  const ToolRun chain =
+      run("hexweft-convert a.vtk -o b.mesh && hexweft-convert b.mesh -o c.vtk --binary && "
+          "hexweft-convert - -o - <c.vtk | cmp - a.vtk");
+  EXPECT_EQ(chain.exit_code, 0) << chain.err;
+  EXPECT_EQ(chain.out, "");
+}
+
+TEST_F(CommandLine, EveryKindIsMadeTheSameTwice) {
+  for (const std::string kind : {"grid", "o-grid", "torus", "torus --square", "l-shape",
+                                 "octree-like --shape blob --resolution 8"}) {
+    SCOPED_TRACE(kind);
+    const std::string arguments = kind + " --sheets 2 --seed 7 ";
+    const ToolRun first = run("hexweft-generate " + arguments + "-o a.vtk");
+    EXPECT_EQ(first.exit_code, 0) << first.err;
+    EXPECT_THAT(first.out, testing::HasSubstr("hexahedra"));
+    EXPECT_EQ(run("hexweft-generate " + arguments + "-o b.vtk").exit_code, 0);
+    EXPECT_EQ(read_file(file("a.vtk")), read_file(file("b.vtk")));
+    EXPECT_GT(read_hex_mesh(file("a.vtk")).n_cells(), 0);
+  }
+}
+
+TEST_F(CommandLine, AResultHasStandardOutputForItself) {
+  const ToolRun mesh = run("hexweft-generate grid -o -");
+  EXPECT_EQ(read_hex_mesh_text(mesh.out, "stdout").n_cells(), 64);
+  EXPECT_THAT(mesh.err, testing::HasSubstr("64 hexahedra"));
+  const ToolRun report = run("hexweft-generate grid --resolution 2 -o a.vtk --json -");
+  EXPECT_EQ(nlohmann::json::parse(report.out).at("hexahedra"), 8);
+  EXPECT_EQ(run("hexweft-generate grid --resolution 2 -o a.vtk --json r.json").exit_code, 0);
+  EXPECT_EQ(read_file(file("r.json")), report.out);
+}
+
+TEST_F(CommandLine, AReaderThatLeavesEndsTheProgramQuietly) {
+  const ToolRun result = run("hexweft-generate grid --resolution 40 -o - | head -n 1");
+  EXPECT_EQ(result.out, "# vtk DataFile Version 3.0\n");
+  EXPECT_THAT(result.err, testing::Not(testing::HasSubstr("cannot")));
+}
+
+}  // namespace
+}  // namespace hexweft::test

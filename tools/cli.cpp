@@ -1,0 +1,162 @@
+#include "tools/cli.h"
+
+#include <cmath>
+#include <iostream>
+#include <new>
+
+#include "io/file.h"
+#include "io/formats.h"
+
+namespace hexweft::cli {
+namespace {
+
+// Formats and their extensions, for --help.
+std::string list_formats() {
+  std::string list;
+  for (const Format& format : formats()) {
+    list += (list.empty() ? "" : "; ");
+    list += std::string(format.name) + " (" + std::string(format.extension) + "): ";
+    list += format.description;
+  }
+  return list;
+}
+
+std::vector<std::string> format_names() {
+  std::vector<std::string> names;
+  for (const Format& format : formats()) names.emplace_back(format.name);
+  return names;
+}
+
+// One line: a message of several would not be a sentence.
+std::string one_line(std::string text) {
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  for (char& c : text) {
+    if (c == '\n') c = ' ';
+  }
+  return text;
+}
+
+std::string short_number(double x) {
+  std::string text = std::to_string(x);
+  while (text.back() == '0') text.pop_back();
+  if (text.back() == '.') text.pop_back();
+  return text;
+}
+
+}  // namespace
+
+CLI::Validator in_range(double least, double most) {
+  const std::string range = "[" + short_number(least) + ", " + short_number(most) + "]";
+  const auto check = [=](const std::string& text) -> std::string {
+    double value = std::nan("");
+    const bool is_number = CLI::detail::lexical_cast(text, value);
+    if (is_number && value >= least && value <= most) return {};
+    return "expected a number in " + range + ", found \"" + text + "\"";
+  };
+  return CLI::Validator(check, "in " + range);
+}
+
+Program::Program(const std::string& name, const std::string& summary)
+    : app_(summary, name), name_(name) {
+  app_.set_version_flag("--version", name + " " HEXWEFT_VERSION);
+  app_.get_formatter()->column_width(34);
+  app_.footer(
+      "Exit codes: 0 done, 1 failed, 2 wrong usage or input, 3 file cannot be read or written.");
+}
+
+void Program::add_input() {
+  app_.add_option("INPUT", input_path_,
+                  "Mesh to read, - is standard input. Formats: " + list_formats())
+      ->required();
+  app_.add_option("--input-format", input_format_,
+                  "Format of INPUT (default: by its extension, else by how it starts)")
+      ->check(CLI::IsMember(format_names()));
+}
+
+void Program::add_output() {
+  app_.add_option("-o,--output", output_path_, "Mesh to write, - is standard output")->required();
+  app_.add_option("--format", write_options_.format,
+                  "Format of the output (default: by its extension, vtk for -)")
+      ->check(CLI::IsMember(format_names()));
+  app_.add_flag("--binary", write_options_.binary,
+                "Write binary numbers where the format knows them");
+  app_.add_option_function<int>(
+          "--precision", [this](const int& digits) { write_options_.precision = digits; },
+          "Significant digits in text (default: as few as read back exactly)")
+      ->check(in_range(1, 17));
+}
+
+void Program::add_json() {
+  app_.add_option("--json", json_path_, "Write a report as JSON, - is standard output");
+}
+
+void Program::add_threads(int& n) {
+  app_.add_option("--threads", n, "Number of threads; the result does not depend on it")
+      ->check(in_range(1, 1024))
+      ->capture_default_str();
+}
+
+void Program::check_paths() const {
+  if (output_path_ == "-" && json_path_ == "-") {
+    throw InputError("only one of --output and --json can be standard output");
+  }
+  if (!output_path_.empty()) check_hex_mesh_output(output_path_, write_options_);
+  if (wants_json()) check_writable(json_path_);
+}
+
+int Program::run(int argc, char** argv, const std::function<int()>& body) {
+  try {
+    app_.parse(argc, argv);
+    check_paths();
+    const int code = body();
+    if (!std::cout.flush()) return fail(kFileProblem, "standard output: cannot be written");
+    return code;
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app_.exit(error);  // --help, --version
+    return fail(kWrongInput, std::string(error.what()) + " (see " + name_ + " --help)");
+  } catch (const InputError& error) {
+    return fail(kWrongInput, error.what());
+  } catch (const FormatError& error) {
+    return fail(kFileProblem, error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(kFailed, "out of memory");
+  } catch (const std::exception& error) {
+    return fail(kFailed, error.what());
+  }
+}
+
+int Program::fail(int code, const std::string& message) const {
+  std::cerr << name_ << ": " << one_line(message) << std::endl;
+  return code;
+}
+
+void Program::note(const std::string& text) const {
+  std::cerr << name_ << ": note: " << one_line(text) << std::endl;
+}
+
+HexMesh Program::read_mesh(const ReadOptions& options) {
+  ReadOptions with_format = options;
+  if (!input_format_.empty()) with_format.format = input_format_;
+  ReadReport report;
+  HexMesh mesh = read_hex_mesh(input_path_, with_format, &report);
+  for (const std::string& text : report.notes) note(text);
+  return mesh;
+}
+
+void Program::write_mesh(const HexMesh& mesh) {
+  const WriteReport report = write_hex_mesh(output_path_, mesh, write_options_);
+  for (const std::string& text : report.notes) note(text);
+}
+
+void Program::write_json(const nlohmann::ordered_json& report) {
+  if (!wants_json()) return;
+  using Handler = nlohmann::ordered_json::error_handler_t;  // a path need not be UTF-8
+  write_file(json_path_, report.dump(2, ' ', false, Handler::replace) + "\n");
+}
+
+void Program::say(const std::string& line) {
+  const bool taken = output_path_ == "-" || json_path_ == "-";
+  (taken ? std::cerr : std::cout) << line << '\n';
+}
+
+}  // namespace hexweft::cli
