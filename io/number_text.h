@@ -19,13 +19,14 @@ inline void append_number(std::string& out, double value, std::optional<int> pre
   const auto [end, error] = precision ? std::to_chars(text, text + sizeof(text), value,
                                                       std::chars_format::general, *precision)
                                       : std::to_chars(text, text + sizeof(text), value);
-  out.append(text, end);
+  out.append(text, static_cast<std::size_t>(end - text));
 }
 
 template <std::integral T>
 void append_number(std::string& out, T value, std::optional<int> = {}) {
   char text[24];
-  out.append(text, std::to_chars(text, text + sizeof(text), value).ptr);
+  const char* end = std::to_chars(text, text + sizeof(text), value).ptr;
+  out.append(text, static_cast<std::size_t>(end - text));
 }
 
 /// Where each vertex comes among the live ones, by slot; -1 for deleted ones.

@@ -13,6 +13,7 @@ struct Request {
   std::optional<int> resolution;  // empty: the kind's own
   std::string shape = std::string(name(Shape::sphere));
   bool square = false;
+  int quarter_turns = 0;
   int sheets = 0;
   unsigned seed = 0;
 };
@@ -40,8 +41,12 @@ const std::vector<Kind>& kinds() {
        }},
       {"torus", 2,
        [](int n, const Request& request) {
-         return make_torus(
-             {.n_core = n, .n_ring = n, .n_around = 8 * n, .round_section = !request.square});
+         TorusOptions options;
+         options.n_core = options.n_ring = n;
+         options.n_around = 8 * n;
+         options.round_section = !request.square;
+         options.n_quarter_turns = request.quarter_turns;
+         return make_torus(options);
        }},
       {"l-shape", 3, [](int n, const Request&) { return make_l_shape(n); }},
       {"octree-like", 16, [](int n, const Request& request) {
@@ -72,6 +77,10 @@ void add_options(CLI::App& app, Request& request) {
       ->check(cli::in_range(1, 200));
   app.add_flag("--square", request.square,
                "Give the torus a square section instead of a round one");
+  app.add_option("--quarter-turns", request.quarter_turns,
+                 "By how many quarter turns the torus twists on its way round")
+      ->check(cli::in_range(-8, 8))
+      ->capture_default_str();
   app.add_option("--sheets", request.sheets, "Insert up to this many sheets at random places")
       ->check(cli::in_range(0, 10000))
       ->capture_default_str();
