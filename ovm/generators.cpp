@@ -1,5 +1,6 @@
 #include "ovm/generators.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -73,28 +74,43 @@ Section round_section(int n_core, int n_ring, double radius) {
   return s;
 }
 
-// Sweeps a section through n_layers + 1 places (n_layers where the sweep closes).
+// Sweeps a section through n_layers + 1 places. With `closing` the last one is the first, where
+// point i of the section arrives at point closing[i].
 template <class Place>
-HexMesh sweep(const Section& section, int n_layers, bool closed, Place&& place) {
+HexMesh sweep(const Section& section, int n_layers, const std::vector<int>& closing,
+              Place&& place) {
   HexMesh mesh;
   const int n = static_cast<int>(section.points.size());
-  const int n_places = n_layers + (closed ? 0 : 1);
+  const int n_places = n_layers + (closing.empty() ? 1 : 0);
   mesh.reserve(n * n_places, static_cast<int>(section.quads.size()) * n_layers);
   for (int k = 0; k < n_places; ++k) {
     for (const Vector2d& p : section.points) mesh.add_vertex(place(p, k));
   }
   for (int k = 0; k < n_layers; ++k) {
-    const int below = n * k, above = n * ((k + 1) % n_places);
     for (const auto& q : section.quads) {
       CellVertices c;
       for (int i = 0; i < 4; ++i) {
-        c[i] = VertexHandle(below + q[i]);
-        c[i + 4] = VertexHandle(above + q[i]);
+        c[i] = VertexHandle(n * k + q[i]);
+        c[i + 4] = VertexHandle(k + 1 < n_places ? n * (k + 1) + q[i] : closing[q[i]]);
       }
       mesh.add_cell(c);
     }
   }
   return mesh;
+}
+
+// Where each point of a section with fourfold symmetry goes in a rotation by quarter turns.
+std::vector<int> rotated_points(const Section& section, int n_quarter_turns) {
+  const Eigen::Rotation2Dd rotation(n_quarter_turns * std::numbers::pi / 2);
+  std::vector<int> result;
+  for (const Vector2d& p : section.points) {
+    const Vector2d q = rotation * p;
+    const auto nearest = std::min_element(
+        section.points.begin(), section.points.end(),
+        [&](const Vector2d& a, const Vector2d& b) { return (a - q).norm() < (b - q).norm(); });
+    result.push_back(static_cast<int>(nearest - section.points.begin()));
+  }
+  return result;
 }
 
 }  // namespace
@@ -136,7 +152,7 @@ HexMesh make_o_grid(const OGridOptions& o) {
           "an O-grid needs positive counts of cells");
   require(o.radius > 0 && o.height > 0, "an O-grid needs a positive radius and height");
   return sweep(
-      round_section(o.n_core, o.n_ring, o.radius), o.n_layers, false,
+      round_section(o.n_core, o.n_ring, o.radius), o.n_layers, {},
       [&](const Vector2d& p, int k) { return Vector3d(p.x(), p.y(), o.height * k / o.n_layers); });
 }
 
@@ -146,11 +162,13 @@ HexMesh make_torus(const TorusOptions& o) {
           "a torus needs a major radius above its positive minor radius");
   const Section section = o.round_section ? round_section(o.n_core, o.n_ring, o.minor_radius)
                                           : square_section(o.n_core, o.minor_radius);
-  return sweep(section, o.n_around, true, [&](const Vector2d& p, int k) {
+  const auto closing = rotated_points(section, o.n_quarter_turns);
+  return sweep(section, o.n_around, closing, [&](const Vector2d& p, int k) {
     // The section's x runs up and its y outwards, so that x, y and the sweep are right-handed.
     const double angle = 2 * std::numbers::pi * k / o.n_around;
-    const double r = o.major_radius + p.y();
-    return Vector3d(r * std::cos(angle), r * std::sin(angle), p.x());
+    const Vector2d q = Eigen::Rotation2Dd(o.n_quarter_turns * angle / 4) * p;
+    const double r = o.major_radius + q.y();
+    return Vector3d(r * std::cos(angle), r * std::sin(angle), q.x());
   });
 }
 

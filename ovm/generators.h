@@ -19,8 +19,8 @@
 namespace hexweft {
 
 /// nx × ny × nz cells; vertex (i, j, k) has handle i + (nx + 1)(j + (ny + 1)k), cell (i, j, k) has
-/// handle i + nx(j + ny k). The default box has unit cells. \throws InputError unless all counts
-/// are positive
+/// handle i + nx(j + ny k). The default box has unit cells.
+/// \throws InputError unless all counts are positive
 HexMesh make_grid(const std::array<int, 3>& cells,
                   const std::optional<Eigen::AlignedBox3d>& box = std::nullopt);
 
@@ -35,10 +35,13 @@ HexMesh make_o_grid(const OGridOptions& options = {});
 /// A ring round the z axis. A square section has four closed singular edges of valence 1 on the
 /// boundary, a round one (an O-grid) has four of valence 3 inside.
 struct TorusOptions {
-  int n_core = 2, n_ring = 1,
-      n_around = 16;  ///< >= 1, n_around >= 3; n_ring is for the round section
+  int n_core = 2, n_around = 16;              ///< >= 1, >= 3
+  int n_ring = 1;                             ///< >= 1, for the round section
   double major_radius = 3, minor_radius = 1;  ///< model units, major > minor > 0
   bool round_section = true;
+  /// By how many quarter turns the section twists on its way round; an odd number makes the sheets
+  /// along the ring cross themselves, and a single closed singular edge of the four.
+  int n_quarter_turns = 0;
 };
 HexMesh make_torus(const TorusOptions& options = {});
 
@@ -71,12 +74,14 @@ double signed_distance_like(Shape shape, const Eigen::Vector3d& p, unsigned seed
 
 /// What octree meshers give: the voxels inside the shape with a layer of cells under their
 /// boundary, drawn onto the surface and smoothed as far as every cell stays valid. It has many
-/// singular edges that nothing needs. \param resolution  voxels along the longest side, >= 6
+/// singular edges that nothing needs.
+/// \param resolution  voxels along the longest side, >= 6
 HexMesh make_octree_like(Shape shape, int resolution, unsigned seed = 0);
 
 /// Inserts up to n sheets round random ball-like sets of cells (radius 1 to 3 cells); a sheet that
 /// is refused or makes a cell worse than a scaled Jacobian of 0.02 is taken back and another is
-/// tried. \return how many were inserted
+/// tried.
+/// \return how many were inserted
 int insert_random_sheets(HexMesh& mesh, int n, unsigned seed);
 
 }  // namespace hexweft

@@ -18,9 +18,9 @@ struct Handle {
 
 using VertexHandle = Handle<struct VertexTag>;
 using EdgeHandle = Handle<struct EdgeTag>;
-using HalfEdgeHandle = Handle<struct HalfEdgeTag>;  ///< 2e runs from the edge's first vertex, 2e+1 back
+using HalfEdgeHandle = Handle<struct HalfEdgeTag>;  ///< 2e from the edge's first vertex, 2e+1 back
 using FaceHandle = Handle<struct FaceTag>;
-using HalfFaceHandle = Handle<struct HalfFaceTag>;  ///< 6c + k: side k of cell c, see hex_numbering.h
+using HalfFaceHandle = Handle<struct HalfFaceTag>;  ///< 6c + k: side k of cell c, hex_numbering.h
 using CellHandle = Handle<struct CellTag>;
 
 }  // namespace hexweft

@@ -4,16 +4,16 @@
 /// Cells hold 8 vertices and own 6 half-faces (6c + k, normals outward); a half-face knows the
 /// half-face it is glued to, its mate. Edges and faces have handles and properties of their own and
 /// live as long as a cell uses them. Storage is flat: vertex-to-cells, vertex-to-edges and
-/// edge-to-cells are linked lists threaded through arrays. Elements are deleted lazily; handles stay
-/// as they are until collect_garbage().
+/// edge-to-cells are linked lists threaded through arrays. Elements are deleted lazily; handles
+/// stay as they are until collect_garbage().
 ///
 ///     HexMesh mesh = make_grid({4, 3, 2});
 ///     for (CellHandle c : mesh.cells())
 ///       for (HalfFaceHandle hf : mesh.halffaces(c))
 ///         if (CellHandle n = mesh.cell(mesh.opposite(hf)); n.valid()) ...
 ///
-/// Edits are undone by a Transaction (transaction.h). The kernel can hold meshes that are not valid;
-/// check_topology() (topology_check.h) says what is wrong with one.
+/// Edits are undone by a Transaction (transaction.h). The kernel can hold meshes that are not
+/// valid; check_topology() (topology_check.h) says what is wrong with one.
 #pragma once
 
 #include <array>
@@ -92,9 +92,7 @@ class HexMesh {
   HalfFaceHandle opposite(HalfFaceHandle hf) const {
     return hf.valid() ? mate_[hf.idx] : HalfFaceHandle();
   }
-  CellHandle cell(HalfFaceHandle hf) const {
-    return CellHandle(hf.valid() ? hf.idx / 6 : -1);
-  }
+  CellHandle cell(HalfFaceHandle hf) const { return CellHandle(hf.valid() ? hf.idx / 6 : -1); }
   static int side(HalfFaceHandle hf) { return hf.idx % 6; }
   FaceHandle face(HalfFaceHandle hf) const { return side_face_[hf.idx]; }
   HalfFaceHandle halfface(FaceHandle f) const { return face_side_[f.idx]; }  ///< one of its sides
@@ -105,9 +103,13 @@ class HexMesh {
   HalfFaceHandle adjacent_on_boundary(HalfFaceHandle hf, EdgeHandle e) const;
 
   // ---- Upward incidences, in no particular order ----
-  ListRange<CellHandle, 8> cells(VertexHandle v) const { return {&corner_next_, first_corner_[v.idx]}; }
+  ListRange<CellHandle, 8> cells(VertexHandle v) const {
+    return {&corner_next_, first_corner_[v.idx]};
+  }
   ListRange<CellHandle, 12> cells(EdgeHandle e) const { return {&slot_next_, first_slot_[e.idx]}; }
-  ListRange<EdgeHandle, 2> edges(VertexHandle v) const { return {&half_edge_next_, first_half_edge_[v.idx]}; }
+  ListRange<EdgeHandle, 2> edges(VertexHandle v) const {
+    return {&half_edge_next_, first_half_edge_[v.idx]};
+  }
   ListRange<HalfEdgeHandle, 1> halfedges(VertexHandle v) const {  ///< those that start at v
     return {&half_edge_next_, first_half_edge_[v.idx]};
   }
@@ -136,10 +138,10 @@ class HexMesh {
   VertexHandle add_vertex(const Eigen::Vector3d& p);
   /// Faces are glued where a half-face with the same vertices waits for a mate.
   /// \throws InputError unless the 8 vertices are live and different
-  CellHandle add_cell(const CellVertices& vertices);
+  CellHandle add_cell(CellVertices vertices);  // by value: it may come out of this very mesh
   void delete_cell(CellHandle c);      ///< edges and faces that no cell uses go too; vertices stay
   void delete_vertex(VertexHandle v);  ///< \throws InputError if a cell uses it
-  /// Relabels vertices, in this order, and glues the half-faces that have come to lie on each other.
+  /// Relabels vertices, in this order, and glues the half-faces that have come to lie on another.
   /// Of two edges that fall together the one at `keep` survives, of two faces the lower handle.
   /// \throws InputError if a cell has both vertices of a pair; the mesh is then as before
   void merge_vertices(std::span<const VertexMerge> merges);
@@ -182,10 +184,10 @@ class HexMesh {
   JournaledArray<HalfFaceHandle> face_side_;
   JournaledArray<CellVertices> cell_vertices_;
   JournaledArray<std::array<EdgeHandle, 12>> cell_edges_;
-  JournaledArray<int> corner_next_;          // 8 per cell
-  JournaledArray<int> slot_next_;            // 12 per cell
-  JournaledArray<HalfFaceHandle> mate_;      // 6 per cell
-  JournaledArray<FaceHandle> side_face_;     // 6 per cell
+  JournaledArray<int> corner_next_;       // 8 per cell
+  JournaledArray<int> slot_next_;         // 12 per cell
+  JournaledArray<HalfFaceHandle> mate_;   // 6 per cell
+  JournaledArray<FaceHandle> side_face_;  // 6 per cell
   Counts counts_;
   std::vector<Counts> savepoints_;
   struct Registries {

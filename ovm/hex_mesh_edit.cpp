@@ -113,12 +113,12 @@ HalfFaceHandle HexMesh::waiting_mate(HalfFaceHandle hf) const {
   return HalfFaceHandle();
 }
 
-CellHandle HexMesh::add_cell(const CellVertices& v) {
+CellHandle HexMesh::add_cell(CellVertices v) {
   for (int i = 0; i < 8; ++i) {
     const bool usable = v[i].valid() && v[i].idx < vertex_slots() && is_live(v[i]);
     if (!usable || std::find(v.begin(), v.begin() + i, v[i]) != v.begin() + i) {
-      throw InputError("a cell needs 8 different vertices of the mesh; corner " + std::to_string(i) +
-                       " is vertex " + std::to_string(v[i].idx));
+      throw InputError("a cell needs 8 different vertices of the mesh; corner " +
+                       std::to_string(i) + " is vertex " + std::to_string(v[i].idx));
     }
   }
   const CellHandle c(cell_slots());
@@ -247,7 +247,8 @@ namespace {
 // New index of each kept element, -1 for the others.
 std::vector<int> inverse(const std::vector<int>& old_of_new, int n_old) {
   std::vector<int> new_of_old(n_old, -1);
-  for (std::size_t i = 0; i < old_of_new.size(); ++i) new_of_old[old_of_new[i]] = static_cast<int>(i);
+  for (std::size_t i = 0; i < old_of_new.size(); ++i)
+    new_of_old[old_of_new[i]] = static_cast<int>(i);
   return new_of_old;
 }
 

@@ -1,7 +1,7 @@
 /// \file
 /// The one home of how a hexahedron's corners, edges and sides are numbered.
 ///
-/// Corners follow VTK_HEXAHEDRON: 0 to 3 round the bottom, 4 to 7 above them. With local axes x, y, z
+/// Corners follow VTK_HEXAHEDRON: 0 to 3 round the bottom, 4 to 7 above. With local axes x, y, z
 ///
 ///         7--------6
 ///        /|       /|        corner  x y z        corner  x y z
@@ -11,9 +11,9 @@
 ///       |/       |/           3     0 1 0          7     0 1 1
 ///       0--------1
 ///
-/// Edge 4a + i is parallel to axis a and runs in its direction; side 2a + s is where coordinate a is s,
-/// its four corners counter-clockwise seen from outside. Triangles of a side are (0,1,2) and (2,3,0) of
-/// these four: the surface that every distance in hexweft refers to.
+/// Edge 4a + i is parallel to axis a and runs in its direction; side 2a + s is where coordinate a
+/// is s, its four corners counter-clockwise seen from outside. Triangles of a side are (0,1,2) and
+/// (2,3,0) of these four: the surface that every distance in hexweft refers to.
 #pragma once
 
 #include <array>
@@ -34,9 +34,12 @@ inline constexpr std::array<std::array<int, 4>, 6> kSideCorners{
     {{3, 0, 4, 7}, {1, 2, 6, 5}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 3, 2, 1}, {4, 5, 6, 7}}};
 
 /// Ends of the edges, in the direction of their axis.
-inline constexpr std::array<std::array<int, 2>, 12> kEdgeCorners{{{0, 1}, {3, 2}, {4, 5}, {7, 6},
-                                                                  {0, 3}, {1, 2}, {4, 7}, {5, 6},
-                                                                  {0, 4}, {1, 5}, {3, 7}, {2, 6}}};
+// clang-format off
+inline constexpr std::array<std::array<int, 2>, 12> kEdgeCorners{
+    {{0, 1}, {3, 2}, {4, 5}, {7, 6},    // along x
+     {0, 3}, {1, 2}, {4, 7}, {5, 6},    // along y
+     {0, 4}, {1, 5}, {3, 7}, {2, 6}}};  // along z
+// clang-format on
 
 /// The corner across an axis: kCornerAcross[corner][axis].
 inline constexpr auto kCornerAcross = [] {
@@ -51,8 +54,8 @@ inline constexpr auto kCornerAcross = [] {
   return t;
 }();
 
-/// The three corners joined to a corner by an edge, ordered so that their edge vectors have a positive
-/// determinant in a valid hexahedron.
+/// The three corners joined to a corner by an edge, ordered so that their edge vectors have a
+/// positive determinant in a valid hexahedron.
 inline constexpr auto kCornerNeighbors = [] {
   std::array<std::array<int, 3>, 8> t{};
   for (int c = 0; c < 8; ++c) {

@@ -1,8 +1,8 @@
 /// \file
 /// Values on the elements of a mesh that grow, compact, roll back and copy with it.
 ///
-///     CellProperty<int> block(mesh, -1);             // private: lives as long as this object
-///     auto weight = named_property<VertexTag, double>(mesh, "weight", 1.0);  // stays with the mesh
+///     CellProperty<int> block(mesh, -1);  // private: lives as long as this object
+///     auto weight = named_property<VertexTag, double>(mesh, "weight", 1.0);  // the mesh keeps it
 ///     block[c] = 3;
 #pragma once
 
@@ -24,7 +24,7 @@ class PropertyStorageBase {
   virtual ~PropertyStorageBase() = default;
   const std::string& name() const { return name_; }  ///< empty for a private property
   virtual const std::type_info& type() const = 0;
-  virtual void grow(int n) = 0;                                 ///< new elements get the default
+  virtual void grow(int n) = 0;                               ///< new elements get the default
   virtual void keep(const std::vector<int>& old_of_new) = 0;  ///< compaction
   virtual void copy_element(int from, int to) = 0;
   virtual JournaledArrayBase& journal() = 0;
@@ -73,7 +73,7 @@ class PropertyRegistry {
   void add(std::shared_ptr<PropertyStorageBase> storage);
   void remove_private(const PropertyStorageBase* storage);
   std::shared_ptr<PropertyStorageBase> find(const std::string& name) const;  ///< null if none
-  std::vector<std::shared_ptr<PropertyStorageBase>> named() const;            ///< in order of birth
+  std::vector<std::shared_ptr<PropertyStorageBase>> named() const;           ///< in order of birth
   bool erase(const std::string& name);
   /// The named properties only, each copied.
   std::shared_ptr<PropertyRegistry> clone() const;
@@ -95,8 +95,8 @@ class Property {
  public:
   Property(const HexMesh& mesh, T default_value = T())
       : registry_(property_registry<Tag>(mesh)),
-        storage_(std::make_shared<PropertyStorage<T>>("", registry_->size(),
-                                                       std::move(default_value))) {
+        storage_(
+            std::make_shared<PropertyStorage<T>>("", registry_->size(), std::move(default_value))) {
     registry_->add(storage_);
   }
   Property(std::shared_ptr<PropertyRegistry> registry, std::shared_ptr<PropertyStorage<T>> storage)
@@ -160,7 +160,8 @@ Property<Tag, T> named_property(const HexMesh& mesh, const std::string& name,
     if (!typed) throw InputError("property \"" + name + "\" exists with another type");
     return {registry, typed};
   }
-  auto made = std::make_shared<PropertyStorage<T>>(name, registry->size(), std::move(default_value));
+  auto made =
+      std::make_shared<PropertyStorage<T>>(name, registry->size(), std::move(default_value));
   registry->add(made);
   return {registry, made};
 }

@@ -7,8 +7,8 @@
 namespace hexweft {
 
 /// While it lives, edits of the mesh, its points and its properties are logged; unless commit() is
-/// called, the destructor undoes them and every handle, property and coordinate is as before. The cost
-/// is that of what was touched. Transactions nest.
+/// called, the destructor undoes them and every handle, property and coordinate is as before. The
+/// cost is that of what was touched. Transactions nest.
 ///
 ///     Transaction trial(mesh);
 ///     collapse(mesh, sheet);

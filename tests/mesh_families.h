@@ -73,6 +73,8 @@ inline std::vector<MeshFamily> mesh_families() {
       {"o_grid", [] { return make_o_grid(); }},
       {"round_torus", [] { return make_torus(); }},
       {"square_torus", [] { return make_torus({.n_around = 7, .round_section = false}); }},
+      {"twisted_torus",
+       [] { return make_torus({.n_around = 16, .round_section = false, .n_quarter_turns = 1}); }},
       {"grid_with_sheets", make_grid_with_sheets},
       {"o_grid_with_sheets", make_o_grid_with_sheets},
       {"octree_sphere", [] { return make_octree_like(Shape::sphere, 7); }},

@@ -16,8 +16,8 @@ inline double min_scaled_jacobian_round(const HexMesh& mesh, VertexHandle v) {
 }
 
 /// Moves v all the way, half or less of it to the target: the first of these for which the least
-/// scaled Jacobian round v is not below min(what it was, floor). \return the share of the way gone,
-/// 0 if none was good
+/// scaled Jacobian round v is not below min(what it was, floor).
+/// \return the share of the way gone, 0 if none was good
 inline double move_guarded(HexMesh& mesh, VertexHandle v, const Eigen::Vector3d& target,
                            double floor) {
   const Eigen::Vector3d from = mesh.point(v);

@@ -3,8 +3,7 @@
 ///
 ///     const SheetSplit split = split_sheet(mesh, e);
 ///     for (const SplitVertex& s : split.vertices)
-///       if (mesh.is_boundary(s.vertex)) mesh.set_point(s.vertex,
-///       surface.closest(mesh.point(s.vertex)));
+///       if (mesh.is_boundary(s.vertex)) project(mesh, s.vertex);
 #pragma once
 
 #include <array>
@@ -37,7 +36,7 @@ struct SheetSplit {
 /// three times. The mesh stays conforming. Children of cells, edges, faces and half-faces take over
 /// the properties of their parents; new elements inside a cell or across a face, and new vertices,
 /// have the defaults. Positions are means of the parents, nothing is projected. \throws InputError
-/// if the edge is deleted, or the sheet is none of this mesh; the mesh is then as before
+/// if the edge is deleted or the sheet is none of this mesh; nothing changes then
 SheetSplit split_sheet(HexMesh& mesh, EdgeHandle e);
 SheetSplit split_sheet(HexMesh& mesh, const DualSheet& sheet);
 
