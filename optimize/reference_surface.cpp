@@ -149,9 +149,21 @@ struct ReferenceSurface::Impl {
         diagonal((upper - lower).norm()),
         mesh(make_triangle_mesh(points, triangles, first_vertex)),
         normals(corner_normals(mesh, first_vertex, feature_angle_deg)),
-        index(points, triangles, centre) {}
+        index(points, triangles, centre) {
+    make_facets(feature_angle_deg);
+  }
 
-  SurfacePoint query(const Eigen::Vector3d& p, const Eigen::Vector3d* hint, double reach) const;
+  void make_facets(double feature_angle_deg);
+
+  /// \param near  a triangle to begin with, or -1
+  SurfacePoint query(const Eigen::Vector3d& p, const Eigen::Vector3d* hint, double reach,
+                     int near) const;
+
+  /// What a query reads of a triangle, in one place.
+  struct Facet {
+    Eigen::Vector3d a, b, c, normal;
+    bool at_feature;
+  };
 
   Eigen::Matrix3Xd points;
   std::vector<std::array<int, 3>> triangles;
@@ -160,61 +172,85 @@ struct ReferenceSurface::Impl {
   std::vector<TriangleMesh::VertexHandle> first_vertex;  // of every face
   TriangleMesh mesh;
   std::vector<Eigen::Matrix3d> normals;  // of the corners, as columns
+  std::vector<Facet> facets;
   TriangleIndex index;
 };
 
 namespace {
 
+}  // namespace
+
+void ReferenceSurface::Impl::make_facets(double feature_angle_deg) {
+  const double least = std::cos(feature_angle_deg * std::numbers::pi / 180);
+  std::vector<char> sharp(mesh.n_vertices(), 0);
+  for (const auto e : mesh.edges()) {
+    const auto h = mesh.halfedge_handle(e, 0), back = mesh.halfedge_handle(e, 1);
+    if (mesh.is_boundary(e)) continue;
+    if ((mesh.normal(mesh.face_handle(h)) | mesh.normal(mesh.face_handle(back))) >= least) continue;
+    sharp[mesh.from_vertex_handle(h).idx()] = sharp[mesh.to_vertex_handle(h).idx()] = 1;
+  }
+  facets.reserve(triangles.size());
+  for (const auto f : mesh.faces()) {
+    const auto& [a, b, c] = triangles[f.idx()];
+    bool at_feature = false;
+    for (auto v = mesh.cfv_iter(f); v.is_valid(); ++v) at_feature |= sharp[v->idx()] != 0;
+    facets.push_back(
+        {points.col(a), points.col(b), points.col(c), to_eigen(mesh.normal(f)), at_feature});
+  }
+}
+
+namespace {
+
 /// The state of one query while Embree offers triangles.
+template <class Facet>
 struct Search {
-  const Eigen::Matrix3Xd& points;
-  const std::vector<std::array<int, 3>>& triangles;
-  const TriangleMesh& mesh;
+  const std::vector<Facet>& facets;
   Eigen::Vector3d p;
   const Eigen::Vector3d* hint;
   double slack;    // bounds the rounding of the index, model units
   double squared;  // of the best distance so far
   int triangle = -1;
   TrianglePoint best{};
+
+  float radius() const { return static_cast<float>(std::sqrt(squared) * (1 + 1e-6) + slack); }
+
+  bool offer(int id) {
+    const Facet& t = facets[id];
+    if (hint && t.normal.dot(*hint) <= 0) return false;
+    const TrianglePoint q = closest_point(p, t.a, t.b, t.c);
+    const double d = (q.point - p).squaredNorm();
+    if (d > squared || (d == squared && triangle >= 0 && id >= triangle)) return false;
+    squared = d;
+    triangle = id;
+    best = q;
+    return true;
+  }
 };
 
-float radius_of(const Search& s) {
-  return static_cast<float>(std::sqrt(s.squared) * (1 + 1e-6) + s.slack);
-}
-
+template <class Facet>
 bool offer_triangle(RTCPointQueryFunctionArguments* args) {
-  Search& s = *static_cast<Search*>(args->userPtr);
-  const int id = static_cast<int>(args->primID);
-  if (s.hint && to_eigen(s.mesh.normal(TriangleMesh::FaceHandle(id))).dot(*s.hint) <= 0)
-    return false;
-  const auto& t = s.triangles[id];
-  const TrianglePoint q =
-      closest_point(s.p, s.points.col(t[0]), s.points.col(t[1]), s.points.col(t[2]));
-  const double squared = (q.point - s.p).squaredNorm();
-  if (squared > s.squared || (squared == s.squared && s.triangle >= 0 && id > s.triangle))
-    return false;
-  s.squared = squared;
-  s.triangle = id;
-  s.best = q;
-  args->query->radius = radius_of(s);
+  auto& search = *static_cast<Search<Facet>*>(args->userPtr);
+  if (!search.offer(static_cast<int>(args->primID))) return false;
+  args->query->radius = search.radius();
   return true;
 }
 
 }  // namespace
 
 SurfacePoint ReferenceSurface::Impl::query(const Eigen::Vector3d& p, const Eigen::Vector3d* hint,
-                                           double reach) const {
+                                           double reach, int near) const {
   const Eigen::Vector3d local = p - centre;
-  Search search{points, triangles, mesh, p, hint, 1e-6 * (diagonal + local.norm()), reach * reach};
+  Search<Facet> search{facets, p, hint, 1e-6 * (diagonal + local.norm()), reach * reach};
+  if (near >= 0) search.offer(near);
   RTCPointQuery query;
   query.x = static_cast<float>(local[0]);
   query.y = static_cast<float>(local[1]);
   query.z = static_cast<float>(local[2]);
   query.time = 0;
-  query.radius = radius_of(search);
+  query.radius = search.radius();
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
-  rtcPointQuery(index.scene(), &query, &context, offer_triangle, &search);
+  rtcPointQuery(index.scene(), &query, &context, offer_triangle<Facet>, &search);
   SurfacePoint found;
   if (search.triangle < 0) return found;
   found.point = search.best.point;
@@ -230,18 +266,19 @@ ReferenceSurface::ReferenceSurface(Eigen::Matrix3Xd points,
     : impl_(std::make_shared<const Impl>(std::move(points), std::move(triangles),
                                          feature_angle_deg)) {}
 
-SurfacePoint ReferenceSurface::closest(const Eigen::Vector3d& p) const {
-  return impl_->query(p, nullptr, std::numeric_limits<double>::infinity());
+SurfacePoint ReferenceSurface::closest(const Eigen::Vector3d& p, int near) const {
+  return impl_->query(p, nullptr, std::numeric_limits<double>::infinity(), near);
 }
 
-SurfacePoint ReferenceSurface::closest(const Eigen::Vector3d& p,
-                                       const Eigen::Vector3d& hint) const {
-  const SurfacePoint found = impl_->query(p, &hint, std::numeric_limits<double>::infinity());
-  return found.triangle >= 0 ? found : closest(p);
+SurfacePoint ReferenceSurface::closest(const Eigen::Vector3d& p, const Eigen::Vector3d& hint,
+                                       int near) const {
+  const SurfacePoint found =
+      impl_->query(p, &hint, std::numeric_limits<double>::infinity(), near);
+  return found.triangle >= 0 ? found : closest(p, near);
 }
 
 SurfacePoint ReferenceSurface::closest_within(const Eigen::Vector3d& p, double reach) const {
-  return impl_->query(p, nullptr, reach);
+  return impl_->query(p, nullptr, reach, -1);
 }
 
 const Eigen::Matrix3Xd& ReferenceSurface::points() const { return impl_->points; }
@@ -249,6 +286,9 @@ const std::vector<std::array<int, 3>>& ReferenceSurface::triangles() const {
   return impl_->triangles;
 }
 double ReferenceSurface::bounding_box_diagonal() const { return impl_->diagonal; }
+bool ReferenceSurface::at_feature(int triangle) const {
+  return impl_->facets[triangle].at_feature;
+}
 Eigen::Vector3d ReferenceSurface::triangle_normal(int triangle) const {
   return to_eigen(impl_->mesh.normal(TriangleMesh::FaceHandle(triangle)));
 }

@@ -38,14 +38,18 @@ class ReferenceSurface {
                    double feature_angle_deg = 40);
 
   /// The closest point; every result is computed in double, Embree only prunes.
-  SurfacePoint closest(const Eigen::Vector3d& p) const;
+  /// \param near  a triangle thought to be close, or -1: makes it faster, never changes the result
+  SurfacePoint closest(const Eigen::Vector3d& p, int near = -1) const;
   /// Of the triangles that face within 90° of `normal_hint`; of all if there is none.
-  SurfacePoint closest(const Eigen::Vector3d& p, const Eigen::Vector3d& normal_hint) const;
+  SurfacePoint closest(const Eigen::Vector3d& p, const Eigen::Vector3d& normal_hint,
+                       int near = -1) const;
   /// Within `reach` (model units) only; triangle = -1 if nothing is.
   SurfacePoint closest_within(const Eigen::Vector3d& p, double reach) const;
 
   const Eigen::Matrix3Xd& points() const;
   const std::vector<std::array<int, 3>>& triangles() const;
+  /// True if an edge sharper than the feature angle touches the triangle, at a corner at least.
+  bool at_feature(int triangle) const;
   Eigen::Vector3d triangle_normal(
       int triangle) const;               ///< length 1; zero for a degenerate triangle
   double bounding_box_diagonal() const;  ///< model units

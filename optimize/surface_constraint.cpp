@@ -42,22 +42,28 @@ struct Deviation {
 std::vector<Deviation> deviations(const Region& region, const RegionNormals& normals,
                                   const ReferenceSurface& reference) {
   std::vector<Deviation> result(region.points.cols());
+  int near = -1;
   for (std::size_t i = 0; i < region.quads.size(); ++i) {
     const auto& q = region.quads[i];
     const Eigen::Vector3d normal = normals.quad.col(i);
     Eigen::Vector3d p[4];
     for (int k = 0; k < 4; ++k) p[k] = region.points.col(q[k]);
     const auto signed_distance = [&](const Eigen::Vector3d& at) {
-      const SurfacePoint s = reference.closest(at, normal);
+      const SurfacePoint s = reference.closest(at, normal, near);
+      near = s.triangle;
       return std::copysign(s.distance, (s.point - at).dot(normal));
     };
     const double centre = signed_distance((p[0] + p[2]) / 2);
     const double halves[2] = {signed_distance((p[0] + p[1] + p[2]) / 3),
                               signed_distance((p[2] + p[3] + p[0]) / 3)};
     for (int k = 0; k < 4; ++k) {
+      for (double d : {centre, halves[0], halves[1]}) result[q[k]].take(d);
+      // The quad on the other side runs along this edge the other way: one of the two looks at it.
+      const int from = q[k], to = q[(k + 1) % 4];
+      if (from > to && from < region.n_free) continue;
       const double edge = signed_distance((p[k] + p[(k + 1) % 4]) / 2);
-      for (double d : {centre, halves[0], halves[1], edge}) result[q[k]].take(d);
-      result[q[(k + 1) % 4]].take(edge);
+      result[from].take(edge);
+      result[to].take(edge);
     }
   }
   return result;
@@ -75,17 +81,21 @@ struct TangentPlanes {
   }
 };
 
+/// Of the vertices that are marked only.
 std::vector<TangentPlanes> tangent_planes(const Region& region, const RegionNormals& normals,
-                                          const ReferenceSurface& reference) {
+                                          const ReferenceSurface& reference,
+                                          const std::vector<char>& wanted) {
   constexpr double kInto = 0.25;  // of the way to the quad's centre
   std::vector<TangentPlanes> planes(region.points.cols());
+  int near = -1;
   for (std::size_t i = 0; i < region.quads.size(); ++i) {
     Eigen::Vector3d centre = Eigen::Vector3d::Zero();
     for (int v : region.quads[i]) centre += region.points.col(v) / 4;
     for (int v : region.quads[i]) {
-      if (v >= region.n_free) continue;
+      if (!wanted[v]) continue;
       const Eigen::Vector3d at = (1 - kInto) * region.points.col(v) + kInto * centre;
-      const SurfacePoint s = reference.closest(at, normals.quad.col(i));
+      const SurfacePoint s = reference.closest(at, normals.quad.col(i), near);
+      near = s.triangle;
       planes[v].take(s.normal, s.point);
     }
   }
@@ -119,7 +129,7 @@ SurfaceGoal goal_on(const TangentPlanes& planes, int vertex, const Eigen::Vector
   }
   if (fixed.trace() < 1.5) return goal;
   goal.fixed = fixed;
-  goal.point = reference.closest(p + move).point;
+  goal.point = reference.closest(p + move, s.triangle).point;
   return goal;
 }
 
@@ -150,15 +160,27 @@ std::vector<SurfaceGoal> surface_goals(const Region& region, const ReferenceSurf
   const RegionNormals normals(region);
   const double half_angle = options.feature_angle_deg * std::numbers::pi / 360;
   const double threshold = std::sin(half_angle) * std::sin(half_angle);
-  std::vector<TangentPlanes> planes = tangent_planes(region, normals, reference);
+  std::vector<SurfacePoint> closest;
+  closest.reserve(region.surface.size());
+  std::vector<char> at_feature(region.points.cols(), 0), plane(region.points.cols(), 0);
+  for (int v : region.surface) {
+    const int near = closest.empty() ? -1 : closest.back().triangle;
+    closest.push_back(reference.closest(region.points.col(v), normals.vertex.col(v), near));
+    at_feature[v] = reference.at_feature(closest.back().triangle);
+  }
+  std::vector<TangentPlanes> planes = tangent_planes(region, normals, reference, at_feature);
   std::vector<SurfaceGoal> goals;
   goals.reserve(region.surface.size());
-  std::vector<char> plane(region.points.cols(), 0);
-  for (int v : region.surface) {
-    const SurfacePoint s = reference.closest(region.points.col(v), normals.vertex.col(v));
-    planes[v].take(s.normal, s.point);
-    goals.push_back(goal_on(planes[v], v, region.points.col(v), s, normals.vertex.col(v), threshold,
-                            reference));
+  for (std::size_t i = 0; i < region.surface.size(); ++i) {
+    const int v = region.surface[i];
+    const SurfacePoint& s = closest[i];
+    if (at_feature[v]) {
+      planes[v].take(s.normal, s.point);
+      goals.push_back(goal_on(planes[v], v, region.points.col(v), s, normals.vertex.col(v),
+                              threshold, reference));
+    } else {
+      goals.push_back({v, s.point, s.normal * s.normal.transpose()});
+    }
     plane[v] = goals.back().fixed.trace() < 1.5;
   }
   if (options.treatment == SurfaceTreatment::project) return goals;

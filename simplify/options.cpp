@@ -21,8 +21,11 @@ void validate(const SimplifyOptions& o) {
          o.hausdorff_limit_rel, "(0, 1]");
   expect(o.min_scaled_jacobian >= 0 && o.min_scaled_jacobian < 1, "min_scaled_jacobian",
          o.min_scaled_jacobian, "[0, 1)");
+  expect(o.mean_scaled_jacobian >= 0 && o.mean_scaled_jacobian < 1, "mean_scaled_jacobian",
+         o.mean_scaled_jacobian, "[0, 1)");
   expect(o.target_hexahedra_rel > 0, "target_hexahedra_rel", o.target_hexahedra_rel, "> 0");
   expect(o.rings > 0, "rings", o.rings, "> 0");
+  expect(o.give_up_factor >= 1, "give_up_factor", o.give_up_factor, ">= 1");
   expect(o.max_chord_deviation > 0, "max_chord_deviation", o.max_chord_deviation, "> 0");
   if (o.target_rate) {
     expect(*o.target_rate >= 0 && *o.target_rate <= 1, "target_rate", *o.target_rate, "[0, 1]");

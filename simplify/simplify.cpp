@@ -54,6 +54,9 @@ class Run {
       if (mesh_.n_cells() < options_.target_hexahedra_rel * report_.before.hexahedra * 0.95) refine();
       if (!collapse_one(true) && !collapse_one(false) && !refine_when_stuck()) break;
     }
+    while (mesh_.n_cells() < options_.target_hexahedra_rel * report_.before.hexahedra * 0.9 &&
+           refine(0.5)) {
+    }
     report_.after = measure_mesh(mesh_);
     report_.hausdorff_ratio = hausdorff_distance(mesh_, reference_).ratio();
     report_.seconds = seconds();
@@ -138,8 +141,9 @@ class Run {
   }
 
   // Splits one sheet if there is room for it.
-  bool refine() {
+  bool refine(double min_length_rel = RefineOptions().min_length_rel) {
     RefineOptions refine;
+    refine.min_length_rel = min_length_rel;
     const double target = options_.target_hexahedra_rel * report_.before.hexahedra;
     refine.max_cells = static_cast<int>(1.5 * (target - mesh_.n_cells()));
     while (const auto sheet = choose_sheet_to_refine(mesh_, distance_, refine, not_refinable_)) {
@@ -147,7 +151,7 @@ class Run {
         ++report_.refined;
         not_refinable_.clear();
         bc_ = extract_base_complex(mesh_);
-        memory_.forget_all();
+        ++step_;
         return true;
       }
       ++report_.refinement_failed;

@@ -13,11 +13,18 @@ int euler_of_live(const HexMesh& mesh) {
   return mesh.n_vertices() - mesh.n_edges() + mesh.n_faces() - mesh.n_cells();
 }
 
-// A step may lower the quality of its region to the floor, but not below what is worse already.
-double quality_floor(const HexMesh& mesh, const CollapsePlan& plan, double floor) {
-  double worst = floor;
-  for (CellHandle c : plan.removed) worst = std::min(worst, scaled_jacobian(mesh, c));
-  return std::max(worst, 1e-3);
+// Least and mean scaled Jacobian of some cells.
+struct Quality {
+  double least = 1, mean = 1;
+};
+Quality measure(const HexMesh& mesh, std::span<const CellHandle> cells) {
+  Quality q{1, 0};
+  for (CellHandle c : cells) {
+    const double sj = scaled_jacobian(mesh, c);
+    q.least = std::min(q.least, sj);
+    q.mean += sj / static_cast<double>(cells.size());
+  }
+  return q;
 }
 
 Refusal check_topology_after(const HexMesh& mesh, std::span<const VertexHandle> left, int euler) {
@@ -42,6 +49,31 @@ Refusal refusal_of(ParametrizationFailure failure) {
 bool same_shape(const TopologySummary& a, const TopologySummary& b) {
   return a.n_parts == b.n_parts && a.n_boundary_components == b.n_boundary_components &&
          a.genus == b.genus;
+}
+
+// Parametrizes in two parts, so that what ends far off the surface is given up early. A step may lower
+// the quality of its region to the floors, but where it was under them already, not any further.
+Refusal relax_region(TrialContext& context, std::span<const CellHandle> region, const CollapsePlan& plan,
+                     const Quality& old, const SimplifyOptions& options) {
+  ParametrizationOptions p = options.parametrization;
+  std::vector<CellHandle> touched(region.begin(), region.end());
+  touched.insert(touched.end(), plan.removed.begin(), plan.removed.end());
+  const double least = std::max(std::min(options.min_scaled_jacobian, old.least), 1e-3);
+  const int first = std::min(2, p.max_iterations);
+  for (const bool last : {false, true}) {
+    p.max_iterations = last ? std::max(1, options.parametrization.max_iterations - first) : first;
+    p.min_scaled_jacobian = last ? least : 0;
+    const ParametrizationReport report = parametrize(context.mesh, region, context.reference, p);
+    if (!report.valid()) return refusal_of(report.failure);
+    if (last && report.mean_scaled_jacobian < std::min(options.mean_scaled_jacobian, old.mean)) {
+      return Refusal::quality;
+    }
+    const double limit = (last ? 1 : options.give_up_factor) * context.distance_limit;
+    const bool far = context.distance.after_change(context.mesh, touched, limit) > limit;
+    if (far || !last) context.distance.rollback();
+    if (far) return Refusal::hausdorff;
+  }
+  return Refusal::none;
 }
 
 }  // namespace
@@ -80,9 +112,9 @@ TrialResult try_collapse(TrialContext& context, const BaseComplex& bc, const Col
   if (!result.accepted()) return result;
 
   const int euler = euler_of_live(mesh);
-  ParametrizationOptions parametrization = options.parametrization;
-  parametrization.min_scaled_jacobian = quality_floor(mesh, plan, options.min_scaled_jacobian);
-
+  const std::vector<CellHandle> before =
+      cells_around(mesh, plan.members, options.rings * plan.width);
+  const Quality old = measure(mesh, before);
   Transaction trial(mesh);
   const auto left = apply_plan(mesh, plan, default_targets(mesh, bc.graph, plan));
   result.refusal = check_topology_after(mesh, left, euler);
@@ -94,16 +126,8 @@ TrialResult try_collapse(TrialContext& context, const BaseComplex& bc, const Col
   }
 
   std::vector<CellHandle> region = cells_around(mesh, left, options.rings * plan.width);
-  result.refusal = refusal_of(parametrize(mesh, region, context.reference, parametrization).failure);
+  result.refusal = relax_region(context, region, plan, old, options);
   if (!result.accepted()) return result;
-
-  std::vector<CellHandle> touched = region;
-  touched.insert(touched.end(), plan.removed.begin(), plan.removed.end());
-  if (context.distance.after_change(mesh, touched, context.distance_limit) > context.distance_limit) {
-    context.distance.rollback();
-    result.refusal = Refusal::hausdorff;
-    return result;
-  }
   // The Euler number is kept; a hole that moved from one part to another shows only here.
   if (!same_shape(context.shape, summarize_topology(mesh))) {
     context.distance.rollback();
