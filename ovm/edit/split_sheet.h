@@ -36,7 +36,7 @@ struct SheetSplit {
 /// three times. The mesh stays conforming. Children of cells, edges, faces and half-faces take over
 /// the properties of their parents; new elements inside a cell or across a face, and new vertices,
 /// have the defaults. Positions are means of the parents, nothing is projected.
-/// \throws InputError if the edge is deleted or the sheet is none of this mesh, which stays as it is
+/// \throws InputError if the edge is deleted or the sheet is none of this mesh; nothing changes
 SheetSplit split_sheet(HexMesh& mesh, EdgeHandle e);
 SheetSplit split_sheet(HexMesh& mesh, const DualSheet& sheet);
 
