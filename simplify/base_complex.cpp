@@ -9,7 +9,8 @@
 namespace hexweft {
 namespace {
 
-// Walks straight along one frame axis to the wall; empty if the walk comes back to its start (a ring).
+// Walks straight along one frame axis to the wall; empty if the walk comes back to its start (a
+// ring).
 std::optional<CellFrame> walk_to_wall(const HexMesh& mesh, const CutSurfaces& cuts, CellFrame f,
                                       int axis, int end) {
   const CellHandle start = f.cell;
@@ -161,8 +162,8 @@ class Extractor {
       for (int j = 0; j <= n[1]; ++j) {
         for (int i = 0; i <= n[0]; ++i) {
           const int bits = (i == n[0] ? 1 : 0) | (j == n[1] ? 2 : 0) | (k == n[2] ? 4 : 0);
-          const CellFrame& f = frame(comp, std::min(i, n[0] - 1), std::min(j, n[1] - 1),
-                                     std::min(k, n[2] - 1));
+          const CellFrame& f =
+              frame(comp, std::min(i, n[0] - 1), std::min(j, n[1] - 1), std::min(k, n[2] - 1));
           bc_.grid_vertices.push_back(hexweft::vertex(mesh_, f, bits));
         }
       }
@@ -261,8 +262,8 @@ class Extractor {
   BaseComplex& bc_;
   CutSurfaces cuts_;
   std::vector<int> base_vertex_, base_face_;
-  std::vector<CellFrame> frames_;     // of the grid being filled
-  std::vector<VertexHandle> chain_;   // of the base edge being found
+  std::vector<CellFrame> frames_;    // of the grid being filled
+  std::vector<VertexHandle> chain_;  // of the base edge being found
 };
 
 }  // namespace

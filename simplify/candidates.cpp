@@ -12,7 +12,8 @@ void sort_by_energy(std::vector<Candidate>& queue) {
 
 }  // namespace
 
-CandidateQueues make_queues(const HexMesh& mesh, const BaseComplex& bc, const SimplifyOptions& options) {
+CandidateQueues make_queues(const HexMesh& mesh, const BaseComplex& bc,
+                            const SimplifyOptions& options) {
   CandidateQueues q;
   q.sheets = extract_sheets(bc);
   const auto sheet_terms = rank_sheets(mesh, bc, q.sheets, options.weights);
@@ -22,7 +23,8 @@ CandidateQueues make_queues(const HexMesh& mesh, const BaseComplex& bc, const Si
   sort_by_energy(q.sheet_queue);
   if (!options.chords) return q;
   q.chords = extract_chords(bc);
-  q.chord_terms = rank_chords(mesh, bc, q.chords, boundary_gaussian_curvature(mesh), options.weights);
+  q.chord_terms =
+      rank_chords(mesh, bc, q.chords, boundary_gaussian_curvature(mesh), options.weights);
   for (int i = 0; i < static_cast<int>(q.chords.size()); ++i) {
     const ChordTerms& t = q.chord_terms[i];
     if (can_plan(bc, q.chords[i]) != Refusal::none || t.singular_groups < 2 ||

@@ -1,5 +1,6 @@
 /// \file
-/// The queues of the loop: what could be collapsed, in order, and what is known of earlier failures.
+/// The queues of the loop: what could be collapsed, in order, and what is known of earlier
+/// failures.
 #pragma once
 
 #include <unordered_map>
@@ -24,7 +25,8 @@ struct CandidateQueues {
   std::vector<ChordTerms> chord_terms;
   std::vector<Candidate> sheet_queue, chord_queue;
 };
-CandidateQueues make_queues(const HexMesh& mesh, const BaseComplex& bc, const SimplifyOptions& options);
+CandidateQueues make_queues(const HexMesh& mesh, const BaseComplex& bc,
+                            const SimplifyOptions& options);
 
 /// Remembers which collapses failed. A candidate is known by the cells it would remove; after a
 /// failure it waits for a growing number of accepted steps before it is tried again.

@@ -1,6 +1,6 @@
 /// \file
-/// A cell with a chosen corner and order of axes, carried from cell to cell: how structured grids are
-/// walked in a mesh whose cells are numbered each in its own way.
+/// A cell with a chosen corner and order of axes, carried from cell to cell: how structured grids
+/// are walked in a mesh whose cells are numbered each in its own way.
 #pragma once
 
 #include <array>
@@ -12,10 +12,11 @@ namespace hexweft {
 /// Frame coordinates (0 or 1 along frame axes 0, 1, 2) of a cell's corners; corner 0 is the origin.
 struct CellFrame {
   CellHandle cell;
-  int origin = 0;                          ///< the cell's own number of the origin corner
-  std::array<int, 3> axes = {0, 1, 2};   ///< the cell's own axis of each frame axis
+  int origin = 0;                       ///< the cell's own number of the origin corner
+  std::array<int, 3> axes = {0, 1, 2};  ///< the cell's own axis of each frame axis
 
-  /// The cell's number of the corner whose frame coordinates are the bits of `bits` (axis 0 lowest).
+  /// The cell's number of the corner whose frame coordinates are the bits of `bits` (axis 0
+  /// lowest).
   int corner(int bits) const {
     int c = origin;
     for (int i = 0; i < 3; ++i) {
@@ -42,7 +43,8 @@ inline EdgeHandle edge(const HexMesh& mesh, const CellFrame& f, int bits, int ax
   return mesh.edges(f.cell)[kEdgeBetween[c][kCornerAcross[c][f.axes[axis]]]];
 }
 
-/// The frame of the cell behind side (axis, end), axes parallel to these. \pre that side is not boundary
+/// The frame of the cell behind side (axis, end), axes parallel to these. \pre that side is not
+/// boundary
 inline CellFrame step(const HexMesh& mesh, const CellFrame& f, int axis, int end) {
   const HalfFaceHandle mate = mesh.opposite(halfface(mesh, f, axis, end));
   CellFrame next;

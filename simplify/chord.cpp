@@ -35,7 +35,8 @@ class ChordWalker {
   }
 
  private:
-  // Appends links from `link` on, leaving through its side `end`; false on coming back to the start.
+  // Appends links from `link` on, leaving through its side `end`; false on coming back to the
+  // start.
   bool walk_end(ChordLink link, int end, Chord& chord) const {
     const ChordLink start = link;
     while (true) {

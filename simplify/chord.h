@@ -8,13 +8,13 @@
 
 namespace hexweft {
 
-/// A component of a chord. The chord runs along `axis`; its cross-section is the quadrilateral of the
-/// four base edges parallel to it, edges 4 * axis + i of the component (hex_numbering.h).
+/// A component of a chord. The chord runs along `axis`; its cross-section is the quadrilateral of
+/// the four base edges parallel to it, edges 4 * axis + i of the component (hex_numbering.h).
 struct ChordLink {
   int component;
   int axis;
-  /// true where diagonal 0 of the chord joins the component's parallel edges 1 and 2, false where it
-  /// joins 0 and 3
+  /// true where diagonal 0 of the chord joins the component's parallel edges 1 and 2, false where
+  /// it joins 0 and 3
   bool turned = false;
 };
 

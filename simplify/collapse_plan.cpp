@@ -19,7 +19,8 @@ class PlanBuilder {
 
   CollapsePlan finish(int width) {
     std::sort(plan_.removed.begin(), plan_.removed.end());
-    plan_.removed.erase(std::unique(plan_.removed.begin(), plan_.removed.end()), plan_.removed.end());
+    plan_.removed.erase(std::unique(plan_.removed.begin(), plan_.removed.end()),
+                        plan_.removed.end());
     std::vector<std::pair<int, VertexHandle>> by_class;
     for (int i = 0; i < sets_.size(); ++i) by_class.emplace_back(sets_.find(i), vertices_[i]);
     std::sort(by_class.begin(), by_class.end());
@@ -63,7 +64,8 @@ bool is_removed(const CollapsePlan& plan, CellHandle c) {
 }
 
 // A cell that stays must not have two vertices of one group.
-bool degenerates_a_cell(const HexMesh& mesh, const CollapsePlan& plan, const std::vector<int>& group_of) {
+bool degenerates_a_cell(const HexMesh& mesh, const CollapsePlan& plan,
+                        const std::vector<int>& group_of) {
   for (VertexHandle v : plan.members) {
     for (CellHandle c : mesh.cells(v)) {
       int of_this_group = 0;
@@ -78,7 +80,8 @@ bool degenerates_a_cell(const HexMesh& mesh, const CollapsePlan& plan, const std
 bool glues_boundary(const HexMesh& mesh, const SingularityGraph& graph, const CollapsePlan& plan,
                     const std::vector<int>& group_of) {
   std::vector<int> position(mesh.vertex_slots(), -1);
-  for (std::size_t i = 0; i < plan.members.size(); ++i) position[plan.members[i].idx] = static_cast<int>(i);
+  for (std::size_t i = 0; i < plan.members.size(); ++i)
+    position[plan.members[i].idx] = static_cast<int>(i);
   DisjointSets linked(static_cast<int>(plan.members.size()));
   for (CellHandle c : plan.removed) {
     for (HalfFaceHandle hf : mesh.halffaces(c)) {
@@ -142,7 +145,8 @@ std::vector<PredictedEdge> predict(const HexMesh& mesh, const SingularityGraph& 
 }
 
 bool within(const PredictedEdge& e, const ValenceLimits& limits) {
-  if (e.boundary) return e.valence >= 1 && (e.valence <= limits.max_boundary || e.error() <= e.old_error);
+  if (e.boundary)
+    return e.valence >= 1 && (e.valence <= limits.max_boundary || e.error() <= e.old_error);
   return e.valence >= limits.min_interior &&
          (e.valence <= limits.max_interior || e.error() <= e.old_error);
 }
@@ -183,7 +187,8 @@ CollapsePlan plan_chord_collapse(const HexMesh& mesh, const BaseComplex& bc, con
   int side = 0;
   for (const ChordLink& l : chord.links) {
     const Component& c = bc.components[l.component];
-    // The cross-section's axes in the order that numbers its parallel edges: 0 and 3 are (0,0), (n,n).
+    // The cross-section's axes in the order that numbers its parallel edges: 0 and 3 are (0,0),
+    // (n,n).
     const int u = l.axis == 0 ? 1 : 0, v = l.axis == 2 ? 1 : 2;
     const bool other = l.turned != (diagonal == Diagonal::second);
     side = c.n[u];

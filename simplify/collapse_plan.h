@@ -13,8 +13,8 @@
 namespace hexweft {
 
 struct CollapsePlan {
-  std::vector<CellHandle> removed;       ///< ascending
-  std::vector<VertexHandle> members;     ///< of the groups, group after group, ascending in each
+  std::vector<CellHandle> removed;     ///< ascending
+  std::vector<VertexHandle> members;   ///< of the groups, group after group, ascending in each
   std::vector<int> group_begin = {0};  ///< group i is members[group_begin[i] .. group_begin[i + 1])
   /// How many layers of cells fold together: the width of the sheet, the side of the chord.
   int width = 0;
@@ -25,7 +25,8 @@ struct CollapsePlan {
   }
 };
 
-/// Every chain of mesh vertices across the sheet becomes one vertex; chains that share vertices merge.
+/// Every chain of mesh vertices across the sheet becomes one vertex; chains that share vertices
+/// merge.
 CollapsePlan plan_sheet_collapse(const HexMesh& mesh, const BaseComplex& bc, const Sheet& sheet);
 
 /// The cross-section is folded along a diagonal: vertices on a line along it become one.
@@ -38,12 +39,14 @@ Refusal can_plan(const BaseComplex& bc, const Chord& chord);
 /// (the first member of a group, or the vertex itself).
 struct PredictedEdge {
   VertexHandle a, b;
-  int valence;         ///< cells at it
+  int valence;  ///< cells at it
   bool boundary;
-  int merged;          ///< mesh edges that fall together in it
-  int old_error;       ///< the largest |v - q| among them
-  int error() const { return valence > (boundary ? 2 : 4) ? valence - (boundary ? 2 : 4)
-                                                           : (boundary ? 2 : 4) - valence; }
+  int merged;     ///< mesh edges that fall together in it
+  int old_error;  ///< the largest |v - q| among them
+  int error() const {
+    return valence > (boundary ? 2 : 4) ? valence - (boundary ? 2 : 4)
+                                        : (boundary ? 2 : 4) - valence;
+  }
 };
 
 /// The edges at merged vertices after the collapse. Counting the cells that survive round a group;

@@ -10,13 +10,15 @@ bool has_edge(const HexMesh& mesh, CellHandle c, EdgeHandle e) {
   return std::find(edges.begin(), edges.end(), e) != edges.end();
 }
 
-// The edge that continues e straight through v: the one that shares no cell with it, if just one does.
+// The edge that continues e straight through v: the one that shares no cell with it, if just one
+// does.
 EdgeHandle straight_on(const HexMesh& mesh, EdgeHandle e, VertexHandle v) {
   EdgeHandle found;
   for (EdgeHandle g : mesh.edges(v)) {
     if (g == e) continue;
     const auto cells = mesh.cells(g);
-    if (std::any_of(cells.begin(), cells.end(), [&](CellHandle c) { return has_edge(mesh, c, e); })) {
+    if (std::any_of(cells.begin(), cells.end(),
+                    [&](CellHandle c) { return has_edge(mesh, c, e); })) {
       continue;
     }
     if (found.valid()) return EdgeHandle();
@@ -38,7 +40,8 @@ CutSurfaces::CutSurfaces(const HexMesh& mesh, SingularityGraph& graph)
     const auto [a, b] = mesh.vertices(e);
     const bool singular = graph.singular_edge[e.idx];
     if (singular) on_singular_edge_[a.idx] = on_singular_edge_[b.idx] = 1;
-    if (singular || graph.singular_vertex[a.idx] || graph.singular_vertex[b.idx]) seeds.push_back(e);
+    if (singular || graph.singular_vertex[a.idx] || graph.singular_vertex[b.idx])
+      seeds.push_back(e);
   }
   trace(std::move(seeds));
   for (const SingularCurve& curve : graph.curves) {
@@ -46,7 +49,8 @@ CutSurfaces::CutSurfaces(const HexMesh& mesh, SingularityGraph& graph)
   }
 }
 
-// Base edges run straight on from the seeds through regular vertices; surfaces start on all of them.
+// Base edges run straight on from the seeds through regular vertices; surfaces start on all of
+// them.
 void CutSurfaces::trace(std::vector<EdgeHandle> seeds) {
   std::vector<EdgeHandle> front;
   const auto add = [&](EdgeHandle e) {

@@ -12,12 +12,12 @@ namespace hexweft {
 
 /// Weights and constants of the ranking terms.
 struct RankingWeights {
-  double k_valence = 0.4;     ///< k_sv
-  double k_width = 0.6;       ///< k_sd
-  double k_distortion = 0.2;  ///< k_sq
-  double beta = 1.67;         ///< of the valence terms
-  double min_width = 0.7;     ///< alpha_a, share of the narrowest place in the width term
-  double mean_width = 0.3;    ///< alpha_b, share of the mean width
+  double k_valence = 0.4;              ///< k_sv
+  double k_width = 0.6;                ///< k_sd
+  double k_distortion = 0.2;           ///< k_sq
+  double beta = 1.67;                  ///< of the valence terms
+  double min_width = 0.7;              ///< alpha_a, share of the narrowest place in the width term
+  double mean_width = 0.3;             ///< alpha_b, share of the mean width
   double distortion_threshold = 0.55;  ///< second difference of the shape metric that counts
 };
 inline RankingWeights octree_weights() { return {}; }
@@ -33,12 +33,13 @@ struct SheetTerms {
 
 /// The terms of E_c(c).
 struct ChordTerms {
-  double valence = 0;   ///< E_cv >= 0
-  double geometry = 0;  ///< E_cq >= 0
-  double energy = 0;    ///< E_c
+  double valence = 0;    ///< E_cv >= 0
+  double geometry = 0;   ///< E_cq >= 0
+  double energy = 0;     ///< E_c
   double deviation = 0;  ///< D(c) / 3k, the mean valence error of what would be left
   Diagonal diagonal = Diagonal::first;
-  int singular_groups = 0;  ///< of the four groups of parallel base edges, those with singular edges
+  int singular_groups =
+      0;  ///< of the four groups of parallel base edges, those with singular edges
 };
 
 /// Per cell: the largest second difference of the shape metric along the three directions (Eq. 9).
@@ -47,7 +48,8 @@ std::vector<double> shape_differences(const HexMesh& mesh);
 
 /// One entry a sheet. Cost O(#cells + #B_E).
 std::vector<SheetTerms> rank_sheets(const HexMesh& mesh, const BaseComplex& bc,
-                                    const std::vector<Sheet>& sheets, const RankingWeights& weights);
+                                    const std::vector<Sheet>& sheets,
+                                    const RankingWeights& weights);
 
 /// \param curvature  Gaussian curvature by vertex handle (0 inside)
 std::vector<ChordTerms> rank_chords(const HexMesh& mesh, const BaseComplex& bc,
@@ -55,8 +57,8 @@ std::vector<ChordTerms> rank_chords(const HexMesh& mesh, const BaseComplex& bc,
                                     const std::vector<double>& curvature,
                                     const RankingWeights& weights);
 
-/// Angle deficit over a quarter of the area of the surrounding boundary quadrilaterals, by vertex handle; 0
-/// inside. Unit 1 / length². Cost O(#cells).
+/// Angle deficit over a quarter of the area of the surrounding boundary quadrilaterals, by vertex
+/// handle; 0 inside. Unit 1 / length². Cost O(#cells).
 std::vector<double> boundary_gaussian_curvature(const HexMesh& mesh);
 
 }  // namespace hexweft

@@ -10,11 +10,12 @@
 namespace hexweft {
 namespace {
 
-// D of one link, Eq. 2 counted in hexahedra: an edge on the sub-diagonal loses one, the pair on the main
-// diagonal becomes one edge.
+// D of one link, Eq. 2 counted in hexahedra: an edge on the sub-diagonal loses one, the pair on the
+// main diagonal becomes one edge.
 int deviation(const BaseComplex& bc, const LinkEdges& l) {
   const BaseEdge &a = bc.edges[l.a], &b = bc.edges[l.b], &c = bc.edges[l.c], &d = bc.edges[l.d];
-  return std::abs(c.valence - 1 - c.regular_valence()) + std::abs(d.valence - 1 - d.regular_valence()) +
+  return std::abs(c.valence - 1 - c.regular_valence()) +
+         std::abs(d.valence - 1 - d.regular_valence()) +
          std::abs(a.valence + b.valence - 2 - std::min(a.regular_valence(), b.regular_valence()));
 }
 
@@ -35,8 +36,8 @@ int singular_groups(const BaseComplex& bc, const Chord& chord) {
 }
 
 // Mean length of the diagonals that fold, over that of those that stay; and the curvature's spread.
-double geometry_term(const HexMesh& mesh, const BaseComplex& bc, const Chord& chord, Diagonal diagonal,
-                     const std::vector<double>& curvature, double mean_edge) {
+double geometry_term(const HexMesh& mesh, const BaseComplex& bc, const Chord& chord,
+                     Diagonal diagonal, const std::vector<double>& curvature, double mean_edge) {
   double main = 0, sub = 0, sum = 0, sum_sq = 0;
   int n = 0;
   const auto vertex = [&](int edge, int end) { return bc.vertices[bc.edges[edge].ends[end]]; };
@@ -96,8 +97,8 @@ std::vector<ChordTerms> rank_chords(const HexMesh& mesh, const BaseComplex& bc,
     t.singular_groups = singular_groups(bc, chord);
     t.valence = w.beta * t.deviation;
     t.geometry = geometry_term(mesh, bc, chord, t.diagonal, curvature, mean_edge);
-    t.energy = w.k_distortion * (1 - std::exp(-t.geometry)) +
-               w.k_valence * (1 - std::exp(-t.valence));
+    t.energy =
+        w.k_distortion * (1 - std::exp(-t.geometry)) + w.k_valence * (1 - std::exp(-t.valence));
     result.push_back(t);
   }
   return result;

@@ -18,7 +18,8 @@ double length(const HexMesh& mesh, const BaseComplex& bc, const BaseEdge& e) {
   return sum;
 }
 
-// The base edges of F_L and F_R, in groups that would become one. Scratch is kept from sheet to sheet.
+// The base edges of F_L and F_R, in groups that would become one. Scratch is kept from sheet to
+// sheet.
 class SideGroups {
  public:
   explicit SideGroups(const BaseComplex& bc)
@@ -117,8 +118,8 @@ double width_term(const HexMesh& mesh, const BaseComplex& bc, const Sheet& sheet
   return std::cbrt((w.min_width * least + w.mean_width * mean) / mean_edge);
 }
 
-double distortion_term(const BaseComplex& bc, const Sheet& sheet, const std::vector<double>& differences,
-                       double threshold) {
+double distortion_term(const BaseComplex& bc, const Sheet& sheet,
+                       const std::vector<double>& differences, double threshold) {
   double sum = 0;
   for (const Crossing& x : sheet.crossings) {
     for (CellHandle c : bc.cells(bc.components[x.component])) {

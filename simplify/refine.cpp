@@ -42,7 +42,8 @@ std::vector<Measured> measure(const HexMesh& mesh, const std::vector<DualSheet>&
 
 }  // namespace
 
-std::optional<DualSheet> choose_sheet_to_refine(const HexMesh& mesh, const SurfaceDistance& distance,
+std::optional<DualSheet> choose_sheet_to_refine(const HexMesh& mesh,
+                                                const SurfaceDistance& distance,
                                                 const RefineOptions& options,
                                                 std::span<const EdgeHandle> excluded) {
   std::vector<DualSheet> sheets = list_dual_sheets(mesh);
@@ -51,15 +52,18 @@ std::optional<DualSheet> choose_sheet_to_refine(const HexMesh& mesh, const Surfa
   for (const Measured& m : measure(mesh, sheets, distance.distance_by_halfface())) {
     const DualSheet& s = sheets[m.sheet];
     const bool fits = static_cast<int>(s.crossings.size()) <= options.max_cells;
-    const bool known = std::find(excluded.begin(), excluded.end(), s.edges.front()) != excluded.end();
+    const bool known =
+        std::find(excluded.begin(), excluded.end(), s.edges.front()) != excluded.end();
     if (fits && !known && m.length > long_enough) candidates.push_back(m);
   }
   if (candidates.empty()) return std::nullopt;
-  const auto by_distance = [](const Measured& a, const Measured& b) { return a.distance > b.distance; };
+  const auto by_distance = [](const Measured& a, const Measured& b) {
+    return a.distance > b.distance;
+  };
   const auto by_length = [](const Measured& a, const Measured& b) { return a.length < b.length; };
   std::stable_sort(candidates.begin(), candidates.end(), by_distance);
-  const auto end = candidates.begin() +
-                   std::min<std::ptrdiff_t>(std::max(options.by_distance, 1), std::ssize(candidates));
+  const auto end = candidates.begin() + std::min<std::ptrdiff_t>(std::max(options.by_distance, 1),
+                                                                 std::ssize(candidates));
   return std::move(sheets[std::max_element(candidates.begin(), end, by_length)->sheet]);
 }
 
@@ -78,7 +82,8 @@ bool try_refine(TrialContext& context, const DualSheet& sheet, const SimplifyOpt
   if (!parametrize(mesh, region, context.reference, parametrization).valid()) return false;
   std::vector<CellHandle> touched = region;
   touched.insert(touched.end(), split.removed.begin(), split.removed.end());
-  if (context.distance.after_change(mesh, touched, context.distance_limit) > context.distance_limit) {
+  if (context.distance.after_change(mesh, touched, context.distance_limit) >
+      context.distance_limit) {
     context.distance.rollback();
     return false;
   }

@@ -13,14 +13,15 @@
 namespace hexweft {
 
 struct RefineOptions {
-  int max_cells = 0;              ///< a sheet may hold at most so many
-  double min_length_rel = 1.2;    ///< > 0, mean length across, of the mean edge length of the mesh
-  int by_distance = 4;            ///< >= 0, sheets looked at in the order of their mean distance first
+  int max_cells = 0;            ///< a sheet may hold at most so many
+  double min_length_rel = 1.2;  ///< > 0, mean length across, of the mean edge length of the mesh
+  int by_distance = 4;  ///< >= 0, sheets looked at in the order of their mean distance first
 };
 
 /// Of the sheets with the largest mean distance one that is long across, else the longest; empty if
 /// none qualifies. `excluded` holds lowest edges of sheets not to take.
-std::optional<DualSheet> choose_sheet_to_refine(const HexMesh& mesh, const SurfaceDistance& distance,
+std::optional<DualSheet> choose_sheet_to_refine(const HexMesh& mesh,
+                                                const SurfaceDistance& distance,
                                                 const RefineOptions& options,
                                                 std::span<const EdgeHandle> excluded = {});
 

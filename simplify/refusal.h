@@ -10,28 +10,29 @@ namespace hexweft {
 enum class Refusal {
   none,
   // decided from the base complex
-  valence,            ///< an edge would get too few or too many cells
-  boundary,           ///< two different stretches of the boundary would be glued
-  feature,            ///< two features would be merged
-  degenerate_cell,    ///< a cell that stays would lose an edge
-  unequal_sides,      ///< chord: its cross-section has different counts of cells
-  twisted,            ///< chord: its diagonals fall together, or it crosses itself
-  not_singular,       ///< chord: removes no singular edge
-  vanishing,          ///< nothing, or a whole part, would be left of it
+  valence,          ///< an edge would get too few or too many cells
+  boundary,         ///< two different stretches of the boundary would be glued
+  feature,          ///< two features would be merged
+  degenerate_cell,  ///< a cell that stays would lose an edge
+  unequal_sides,    ///< chord: its cross-section has different counts of cells
+  twisted,          ///< chord: its diagonals fall together, or it crosses itself
+  not_singular,     ///< chord: removes no singular edge
+  vanishing,        ///< nothing, or a whole part, would be left of it
   // decided from the mesh after the edit
-  topology,           ///< not a manifold, or genus or parts changed
-  structure,          ///< no fewer components than before, or some no cuboid
+  topology,   ///< not a manifold, or genus or parts changed
+  structure,  ///< no fewer components than before, or some no cuboid
   // decided from the geometry
-  inverted,           ///< no parametrization without inverted cells was found
-  quality,            ///< scaled Jacobian under the floor
-  hausdorff           ///< too far from the input's surface
+  inverted,  ///< no parametrization without inverted cells was found
+  quality,   ///< scaled Jacobian under the floor
+  hausdorff  ///< too far from the input's surface
 };
 inline constexpr int kRefusals = static_cast<int>(Refusal::hausdorff) + 1;
 
 constexpr std::string_view name(Refusal r) {
   constexpr std::array<std::string_view, kRefusals> names = {
-      "none",    "valence",      "boundary",  "feature",  "degenerate_cell", "unequal_sides", "twisted",
-      "not_singular", "vanishing", "topology", "structure", "inverted",       "quality",       "hausdorff"};
+      "none",          "valence",  "boundary",     "feature",   "degenerate_cell",
+      "unequal_sides", "twisted",  "not_singular", "vanishing", "topology",
+      "structure",     "inverted", "quality",      "hausdorff"};
   return names[static_cast<std::size_t>(r)];
 }
 

@@ -55,7 +55,7 @@ std::string SimplifyReport::brief() const {
 
 namespace {
 
-nlohmann::json to_json(const MeshFigures& f) {
+nlohmann::ordered_json to_json(const MeshFigures& f) {
   return {{"vertices", f.vertices},
           {"hexahedra", f.hexahedra},
           {"base_vertices", f.base_vertices},
@@ -72,8 +72,8 @@ nlohmann::json to_json(const MeshFigures& f) {
           {"parts", f.parts}};
 }
 
-nlohmann::json to_json(const TrialCounts& c) {
-  nlohmann::json j = {{"accepted", c.accepted}};
+nlohmann::ordered_json to_json(const TrialCounts& c) {
+  nlohmann::ordered_json j = {{"accepted", c.accepted}};
   for (int r = 1; r < kRefusals; ++r) {
     if (c.refused[r] > 0) j["refused"][name(static_cast<Refusal>(r))] = c.refused[r];
   }
@@ -82,7 +82,7 @@ nlohmann::json to_json(const TrialCounts& c) {
 
 }  // namespace
 
-nlohmann::json SimplifyReport::json() const {
+nlohmann::ordered_json SimplifyReport::json() const {
   return {{"before", to_json(before)},
           {"after", to_json(after)},
           {"rate", rate()},

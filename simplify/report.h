@@ -42,10 +42,11 @@ struct SimplifyReport {
   double seconds = 0;
 
   double rate() const {  ///< R
-    return before.components > 0 ? 1 - static_cast<double>(after.components) / before.components : 0;
+    return before.components > 0 ? 1 - static_cast<double>(after.components) / before.components
+                                 : 0;
   }
   std::string brief() const;  ///< a table for people, before and after side by side
-  nlohmann::json json() const;
+  nlohmann::ordered_json json() const;
 };
 
 }  // namespace hexweft

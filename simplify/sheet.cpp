@@ -11,7 +11,8 @@ namespace {
 // the two directions of an edge fall together.
 class DirectedClasses {
  public:
-  explicit DirectedClasses(const BaseComplex& bc) : bc_(bc), sets_(2 * static_cast<int>(bc.edges.size())) {
+  explicit DirectedClasses(const BaseComplex& bc)
+      : bc_(bc), sets_(2 * static_cast<int>(bc.edges.size())) {
     for (const Component& c : bc.components) {
       for (int axis = 0; axis < 3; ++axis) join_axis(c, axis);
     }

@@ -9,7 +9,8 @@
 
 namespace hexweft {
 
-/// How a sheet lies. Where several hold, the first of moebius, intersecting, tangent, closed counts.
+/// How a sheet lies. Where several hold, the first of moebius, intersecting, tangent, closed
+/// counts.
 enum class SheetKind {
   open,          ///< meets the boundary
   closed,        ///< meets no boundary

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "optimize/hausdorff.h"
+#include "optimize/smooth.h"
 #include "ovm/errors.h"
 #include "ovm/quality.h"
 #include "ovm/topology_check.h"
@@ -20,7 +21,8 @@ using Clock = std::chrono::steady_clock;
 
 void check_input(const HexMesh& mesh) {
   for (const TopologyViolation& v : check_topology(mesh)) {
-    if (severity(v.defect) == Severity::invalid) throw InputError("the mesh is not valid: " + v.message);
+    if (severity(v.defect) == Severity::invalid)
+      throw InputError("the mesh is not valid: " + v.message);
   }
   if (mesh.n_cells() == 0) throw InputError("the mesh has no cells");
   for (CellHandle c : mesh.cells()) {
@@ -30,6 +32,13 @@ void check_input(const HexMesh& mesh) {
     }
   }
 }
+
+// The loop samples the surface less densely than the last check: it keeps this share of the limit.
+constexpr double kLoopShare = 0.98;
+// Below this share of the wanted count of cells a sheet is split.
+constexpr double kRefineBelow = 0.9;
+// A verified copy of the mesh is kept whenever the components have fallen by this factor.
+constexpr double kVerifyEvery = 0.8;
 
 // One run: the mesh, what belongs to it, and the state of the loop.
 class Run {
@@ -41,22 +50,27 @@ class Run {
         reference_(make_reference_surface(mesh)),
         distance_(mesh, reference_),
         context_{mesh, reference_, distance_, summarize_topology(mesh),
-                 options.hausdorff_limit_rel * reference_.bounding_box_diagonal()},
+                 kLoopShare * options.hausdorff_limit_rel * reference_.bounding_box_diagonal()},
         bc_(extract_base_complex(mesh)) {
     if (bc_.irregular > 0) {
       throw InputError(fmt::format("{} regions of the base complex are no cuboids", bc_.irregular));
     }
     report_.before = measure_mesh(mesh);
+    verified_ = mesh;
+    verified_components_ = report_.before.components;
   }
 
   SimplifyReport run() {
     while (!should_stop()) {
-      if (mesh_.n_cells() < options_.target_hexahedra_rel * report_.before.hexahedra * 0.95) refine();
-      if (!collapse_one(true) && !collapse_one(false) && !refine_when_stuck()) break;
+      if (is_short_of_cells(kRefineBelow)) refine(RefineOptions().min_length_rel);
+      if (!collapse_one(true) && !collapse_one(false) && !refine(RefineOptions().min_length_rel))
+        break;
     }
-    while (mesh_.n_cells() < options_.target_hexahedra_rel * report_.before.hexahedra * 0.9 &&
-           refine(0.5)) {
+    if (report_.stopped != StopReason::interrupted) {
+      while (is_short_of_cells(kRefineBelow) && refine(0)) {
+      }
     }
+    finish();
     report_.after = measure_mesh(mesh_);
     report_.hausdorff_ratio = hausdorff_distance(mesh_, reference_).ratio();
     report_.seconds = seconds();
@@ -91,7 +105,8 @@ class Run {
       return true;
     }
     if (collapse_sheet(q, patient)) {
-      const std::size_t ratio = q.chord_queue.size() / std::max<std::size_t>(1, q.sheet_queue.size());
+      const std::size_t ratio =
+          q.chord_queue.size() / std::max<std::size_t>(1, q.sheet_queue.size());
       chords_due_ = static_cast<int>(std::min<std::size_t>(3, ratio));
       return true;
     }
@@ -101,7 +116,8 @@ class Run {
   bool collapse_sheet(const CandidateQueues& q, bool patient) {
     for (const Candidate& c : q.sheet_queue) {
       if (should_stop()) return true;
-      if (attempt(plan_sheet_collapse(mesh_, bc_, q.sheets[c.index]), report_.sheets, patient)) return true;
+      if (attempt(plan_sheet_collapse(mesh_, bc_, q.sheets[c.index]), report_.sheets, patient))
+        return true;
     }
     return false;
   }
@@ -134,14 +150,53 @@ class Run {
     bc_ = std::move(bc);
     ++step_;
     not_refinable_.clear();
+    if (static_cast<double>(bc_.components.size()) <= kVerifyEvery * verified_components_) verify();
+    if (mesh_.cell_slots() > 4 * mesh_.n_cells()) compact();
     if (options_.observer) {
       options_.observer({step_, mesh_.n_cells(), static_cast<int>(bc_.components.size()),
                          report_.before.components, distance_.ratio(), seconds()});
     }
   }
 
+  bool within_limit() const {
+    return hausdorff_distance(mesh_, reference_).ratio() <= options_.hausdorff_limit_rel;
+  }
+
+  // Keeps a copy that is within the limit at full sampling; where this one is not, keeps more
+  // distance.
+  void verify() {
+    verified_components_ = static_cast<int>(bc_.components.size());
+    if (within_limit()) {
+      verified_ = mesh_;
+    } else {
+      context_.distance_limit *= 0.95;
+    }
+  }
+
+  // Handles change: what is known by handle is made anew.
+  void compact() {
+    mesh_.collect_garbage();
+    bc_ = extract_base_complex(mesh_);
+    distance_ = SurfaceDistance(mesh_, reference_);
+    memory_.forget_all();
+  }
+
+  void finish() {
+    if (!within_limit()) mesh_ = verified_;
+    if (options_.smooth && report_.stopped != StopReason::interrupted) {
+      smooth(mesh_, reference_,
+             {.hausdorff_limit_rel = options_.hausdorff_limit_rel,
+              .parametrization = options_.parametrization});
+    }
+    mesh_.collect_garbage();
+  }
+
+  bool is_short_of_cells(double share) const {
+    return mesh_.n_cells() < share * options_.target_hexahedra_rel * report_.before.hexahedra;
+  }
+
   // Splits one sheet if there is room for it.
-  bool refine(double min_length_rel = RefineOptions().min_length_rel) {
+  bool refine(double min_length_rel) {
     RefineOptions refine;
     refine.min_length_rel = min_length_rel;
     const double target = options_.target_hexahedra_rel * report_.before.hexahedra;
@@ -160,8 +215,6 @@ class Run {
     return false;
   }
 
-  bool refine_when_stuck() { return refine(); }
-
   HexMesh& mesh_;
   const SimplifyOptions& options_;
   Clock::time_point start_;
@@ -172,6 +225,8 @@ class Run {
   FailureMemory memory_;
   std::vector<EdgeHandle> not_refinable_;  // lowest edges of sheets whose split failed on this mesh
   SimplifyReport report_;
+  HexMesh verified_;  // the last mesh within the limit at full sampling
+  int verified_components_ = 0;
   int step_ = 0;
   int chords_due_ = 0;  // chords to collapse before the next sheet
 };

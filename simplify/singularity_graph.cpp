@@ -70,7 +70,8 @@ SingularCurve trace(const HexMesh& mesh, const SingularityGraph& g,
   std::reverse(backward.vertices.begin(), backward.vertices.end());
   std::reverse(backward.edges.begin(), backward.edges.end());
   backward.edges.push_back(start);
-  backward.vertices.insert(backward.vertices.end(), forward.vertices.begin(), forward.vertices.end());
+  backward.vertices.insert(backward.vertices.end(), forward.vertices.begin(),
+                           forward.vertices.end());
   backward.edges.insert(backward.edges.end(), forward.edges.begin(), forward.edges.end());
   backward.valence = forward.valence;
   backward.boundary = forward.boundary;

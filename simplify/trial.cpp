@@ -30,7 +30,8 @@ Quality measure(const HexMesh& mesh, std::span<const CellHandle> cells) {
 Refusal check_topology_after(const HexMesh& mesh, std::span<const VertexHandle> left, int euler) {
   if (left.empty()) return Refusal::vanishing;
   if (euler_of_live(mesh) != euler) return Refusal::topology;
-  return is_clean(check_topology(mesh, left), Severity::degenerate) ? Refusal::none : Refusal::topology;
+  return is_clean(check_topology(mesh, left), Severity::degenerate) ? Refusal::none
+                                                                    : Refusal::topology;
 }
 
 Refusal refusal_of(ParametrizationFailure failure) {
@@ -51,10 +52,11 @@ bool same_shape(const TopologySummary& a, const TopologySummary& b) {
          a.genus == b.genus;
 }
 
-// Parametrizes in two parts, so that what ends far off the surface is given up early. A step may lower
-// the quality of its region to the floors, but where it was under them already, not any further.
-Refusal relax_region(TrialContext& context, std::span<const CellHandle> region, const CollapsePlan& plan,
-                     const Quality& old, const SimplifyOptions& options) {
+// Parametrizes in two parts, so that what ends far off the surface is given up early. A step may
+// lower the quality of its region to the floors, but where it was under them already, not any
+// further.
+Refusal relax_region(TrialContext& context, std::span<const CellHandle> region,
+                     const CollapsePlan& plan, const Quality& old, const SimplifyOptions& options) {
   ParametrizationOptions p = options.parametrization;
   std::vector<CellHandle> touched(region.begin(), region.end());
   touched.insert(touched.end(), plan.removed.begin(), plan.removed.end());

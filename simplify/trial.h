@@ -6,9 +6,9 @@
 
 #include "optimize/reference_surface.h"
 #include "optimize/surface_distance.h"
+#include "ovm/topology_summary.h"
 #include "simplify/collapse_plan.h"
 #include "simplify/options.h"
-#include "ovm/topology_summary.h"
 
 namespace hexweft {
 
@@ -23,13 +23,13 @@ struct TrialContext {
 
 struct TrialResult {
   Refusal refusal = Refusal::none;
-  BaseComplex base_complex;           ///< of the new mesh if accepted, else empty
-  std::vector<CellHandle> region;     ///< the cells that moved, if accepted
+  BaseComplex base_complex;        ///< of the new mesh if accepted, else empty
+  std::vector<CellHandle> region;  ///< the cells that moved, if accepted
   bool accepted() const { return refusal == Refusal::none; }
 };
 
-/// Collapses; on refusal the mesh and the distance are as before. Cheap checks come first: the plan,
-/// the topology, the new base complex, the parametrization, the distance.
+/// Collapses; on refusal the mesh and the distance are as before. Cheap checks come first: the
+/// plan, the topology, the new base complex, the parametrization, the distance.
 TrialResult try_collapse(TrialContext& context, const BaseComplex& bc, const CollapsePlan& plan,
                          const SimplifyOptions& options);
 

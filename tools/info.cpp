@@ -1,0 +1,125 @@
+// hexweft-info: what a mesh is, whether it is valid, and what is wrong with it and where.
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "ovm/quality.h"
+#include "ovm/topology_check.h"
+#include "ovm/topology_summary.h"
+#include "simplify/base_complex.h"
+#include "simplify/report.h"
+#include "tools/cli.h"
+
+namespace hexweft {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Cells without positive scaled Jacobian, worst first.
+std::vector<std::pair<double, CellHandle>> inverted_cells(const HexMesh& mesh) {
+  std::vector<std::pair<double, CellHandle>> result;
+  for (CellHandle c : mesh.cells()) {
+    if (const double sj = scaled_jacobian(mesh, c); !(sj > 0)) result.emplace_back(sj, c);
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+std::vector<std::string> list_problems(const HexMesh& mesh,
+                                       const std::vector<TopologyViolation>& violations) {
+  std::vector<std::string> problems;
+  for (const TopologyViolation& v : violations) {
+    if (severity(v.defect) != Severity::note) problems.push_back(v.message);
+  }
+  for (const auto& [sj, c] : inverted_cells(mesh)) {
+    problems.push_back(fmt::format("cell {} has scaled Jacobian {:.4g}", c.idx, sj));
+  }
+  return problems;
+}
+
+Json figures_of(const HexMesh& mesh, bool topology_is_valid) {
+  Json j;
+  if (topology_is_valid) {
+    const MeshFigures f = measure_mesh(mesh);
+    j = {{"vertices", f.vertices},
+         {"hexahedra", f.hexahedra},
+         {"components", f.components},
+         {"base_vertices", f.base_vertices},
+         {"base_edges", f.base_edges},
+         {"base_faces", f.base_faces},
+         {"min_scaled_jacobian", f.min_scaled_jacobian},
+         {"mean_scaled_jacobian", f.mean_scaled_jacobian},
+         {"std_scaled_jacobian", f.std_scaled_jacobian},
+         {"mean_volume_deviation", f.mean_volume_deviation},
+         {"max_volume_deviation", f.max_volume_deviation},
+         {"inverted", f.inverted},
+         {"genus", f.genus},
+         {"parts", f.parts}};
+    const SingularityGraph g = extract_singularity_graph(mesh);
+    j["singular_curves"] = g.curves.size();
+    j["singular_edges"] = std::count(g.singular_edge.begin(), g.singular_edge.end(), 1);
+    j["singular_vertices"] = std::count(g.singular_vertex.begin(), g.singular_vertex.end(), 1);
+    return j;
+  }
+  // A base complex, genus and parts are those of manifolds only.
+  const QualitySummary q = summarize_quality(mesh, 0);
+  j = {{"vertices", mesh.n_vertices()},
+       {"hexahedra", mesh.n_cells()},
+       {"components", nullptr},
+       {"base_vertices", nullptr},
+       {"base_edges", nullptr},
+       {"base_faces", nullptr},
+       {"min_scaled_jacobian", q.min_scaled_jacobian},
+       {"mean_scaled_jacobian", q.mean_scaled_jacobian},
+       {"inverted", q.n_inverted},
+       {"genus", nullptr},
+       {"parts", nullptr}};
+  return j;
+}
+
+std::string text_of(const Json& value) {
+  if (value.is_number_float()) return fmt::format("{:.4f}", value.get<double>());
+  if (value.is_null()) return "-";
+  return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+int info(cli::Program& program, int max_listed) {
+  const HexMesh mesh = program.read_mesh();
+  const auto violations = check_topology(mesh);
+  Json report = figures_of(mesh, is_clean(violations));
+  const auto problems = list_problems(mesh, violations);
+  const bool valid = is_clean(violations) && report["inverted"] == 0;
+  report["valid"] = valid;
+  if (!program.wants_json()) {
+    for (const auto& [key, value] : report.items()) {
+      program.say(fmt::format("{:>22}  {}", key, text_of(value)));
+    }
+    for (std::size_t i = 0; i < problems.size() && static_cast<int>(i) < max_listed; ++i) {
+      program.say("  " + problems[i]);
+    }
+    if (static_cast<int>(problems.size()) > max_listed) {
+      program.say(fmt::format("  and {} more (--list)", problems.size() - max_listed));
+    }
+  }
+  report["problems"] = problems;
+  program.write_json(report);
+  return cli::kDone;
+}
+
+}  // namespace
+}  // namespace hexweft
+
+int main(int argc, char** argv) {
+  using namespace hexweft;
+  cli::Program program(
+      "hexweft-info",
+      "Tells the size, validity, quality and block structure of a hexahedral mesh.");
+  int max_listed = 10;
+  program.add_input();
+  program.add_json();
+  program.app()
+      .add_option("--list", max_listed, "How many problems to print at most; the JSON has all")
+      ->check(cli::in_range(0, 1e9))
+      ->capture_default_str();
+  return program.run(argc, argv, [&] { return info(program, max_listed); });
+}
