@@ -89,9 +89,10 @@ TEST(Parametrize, LeavesSurfaceVerticesOnTheReference) {
   }
 }
 
-TEST(Parametrize, FittingHalvesTheErrorOfACoarseBall) {
-  const auto reference = make_reference_surface(make_ball(40));
-  const HexMesh coarse = make_ball(5);
+TEST(Parametrize, FittingHalvesTheErrorOfACoarseTorus) {
+  const auto reference =
+      make_reference_surface(make_torus({.n_core = 12, .n_around = 128, .n_ring = 1}));
+  const HexMesh coarse = make_torus({.n_core = 3, .n_around = 32, .n_ring = 2});
   double distance[2];
   for (SurfaceTreatment treatment : {SurfaceTreatment::project, SurfaceTreatment::fit}) {
     HexMesh mesh = coarse;
