@@ -27,7 +27,7 @@ CandidateQueues make_queues(const HexMesh& mesh, const BaseComplex& bc,
       rank_chords(mesh, bc, q.chords, boundary_gaussian_curvature(mesh), options.weights);
   for (int i = 0; i < static_cast<int>(q.chords.size()); ++i) {
     const ChordTerms& t = q.chord_terms[i];
-    if (can_plan(bc, q.chords[i]) != Refusal::none || t.singular_groups < 2 ||
+    if (can_plan(bc, q.chords[i], q.sheets) != Refusal::none || t.singular_groups < 2 ||
         t.deviation > options.max_chord_deviation) {
       continue;
     }

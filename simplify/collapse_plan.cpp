@@ -1,6 +1,9 @@
 #include "simplify/collapse_plan.h"
 
 #include <algorithm>
+#include <array>
+#include <numeric>
+#include <optional>
 
 #include "simplify/disjoint_sets.h"
 
@@ -173,38 +176,151 @@ CollapsePlan plan_sheet_collapse(const HexMesh& mesh, const BaseComplex& bc, con
   return builder.finish(sheet.width);
 }
 
-Refusal can_plan(const BaseComplex& bc, const Chord& chord) {
-  if (chord.twisted || chord.self_crossing) return Refusal::twisted;
+namespace {
+
+// The axes of a link's cross-section, in the order that numbers its parallel edges: 0 and 3 are at
+// (0, 0) and (n, n).
+std::array<int, 2> section_axes(const ChordLink& l) {
+  return {l.axis == 0 ? 1 : 0, l.axis == 2 ? 1 : 2};
+}
+
+// The sheet across the longer side of a chord's cross-section; -1 if the sides are equal.
+int sheet_to_shorten(const BaseComplex& bc, const Chord& chord, const std::vector<Sheet>& sheets) {
   const ChordLink& l = chord.links.front();
-  const auto& n = bc.components[l.component].n;
-  const int u = l.axis == 0 ? 1 : 0, v = l.axis == 2 ? 1 : 2;
-  return n[u] == n[v] ? Refusal::none : Refusal::unequal_sides;
+  const Component& c = bc.components[l.component];
+  const auto [u, v] = section_axes(l);
+  if (c.n[u] == c.n[v]) return -1;
+  const int edge = c.edges[4 * (c.n[u] > c.n[v] ? u : v)];
+  int id = 0;
+  while (!std::binary_search(sheets[id].edges.begin(), sheets[id].edges.end(), edge)) ++id;
+  return id;
+}
+
+// Some layers of a sheet that go away, the others close up.
+class LayerRemoval {
+ public:
+  LayerRemoval(const HexMesh& mesh, const BaseComplex& bc, const Sheet& sheet, int n_removed)
+      : bc_(bc), sheet_(sheet), removed_(sheet.width, 0) {
+    std::vector<std::pair<double, int>> by_length(sheet.width);
+    for (int i = 0; i < sheet.width; ++i) by_length[i] = {0.0, i};
+    for (std::size_t i = 0; i < sheet.edges.size(); ++i) {
+      const auto chain = bc.chain(bc.edges[sheet.edges[i]]);
+      for (int k = 0; k < sheet.width; ++k) {
+        const int layer = sheet.against[i] ? sheet.width - 1 - k : k;
+        by_length[layer].first += (mesh.point(chain[k + 1]) - mesh.point(chain[k])).norm();
+      }
+    }
+    std::sort(by_length.begin(), by_length.end());
+    for (int i = 0; i < n_removed; ++i) removed_[by_length[i].second] = 1;
+  }
+
+  /// Whether layer i of a component along this axis, counted in the component's direction, goes.
+  bool removes(const Crossing& x, int i) const {
+    const Component& c = bc_.components[x.component];
+    const int id = c.edges[4 * x.axis];
+    const auto at = std::lower_bound(sheet_.edges.begin(), sheet_.edges.end(), id);
+    const bool along = bc_.edges[id].ends[0] == c.corners[kEdgeCorners[4 * x.axis][0]];
+    const bool same = along != (sheet_.against[at - sheet_.edges.begin()] != 0);
+    return removed_[same ? i : sheet_.width - 1 - i];
+  }
+
+  /// Grid coordinates along the axis of which none is closed up with an earlier one.
+  std::vector<int> remaining(const Crossing& x) const {
+    std::vector<int> result = {0};
+    for (int i = 0; i < sheet_.width; ++i) {
+      if (!removes(x, i)) result.push_back(i + 1);
+    }
+    return result;
+  }
+
+  void add_to(PlanBuilder& builder) const {
+    for (const Crossing& x : sheet_.crossings) {
+      for (int i = 0; i < sheet_.width; ++i) {
+        if (removes(x, i)) add_layer(builder, x, i);
+      }
+    }
+  }
+
+ private:
+  void add_layer(PlanBuilder& builder, const Crossing& x, int layer) const {
+    const Component& c = bc_.components[x.component];
+    const int u = (x.axis + 1) % 3, v = (x.axis + 2) % 3;
+    std::array<int, 3> at;
+    for (at[u] = 0; at[u] <= c.n[u]; ++at[u]) {
+      for (at[v] = 0; at[v] <= c.n[v]; ++at[v]) {
+        std::array<int, 3> low = at, high = at;
+        low[x.axis] = layer, high[x.axis] = layer + 1;
+        builder.join(bc_.vertex(c, low[0], low[1], low[2]),
+                     bc_.vertex(c, high[0], high[1], high[2]));
+        if (at[u] == c.n[u] || at[v] == c.n[v]) continue;
+        const CellHandle cell = bc_.cell(c, low[0], low[1], low[2]);
+        builder.remove({&cell, 1});
+      }
+    }
+  }
+
+  const BaseComplex& bc_;
+  const Sheet& sheet_;
+  std::vector<char> removed_;
+};
+
+// Folds one component of a chord; the coordinates of its cross-section that remain are given.
+void fold(PlanBuilder& builder, const BaseComplex& bc, const ChordLink& l, bool other,
+          const std::array<std::vector<int>, 2>& remaining) {
+  const Component& c = bc.components[l.component];
+  const auto [u, v] = section_axes(l);
+  const int side = static_cast<int>(remaining[0].size()) - 1;
+  std::array<int, 3> at;
+  for (at[l.axis] = 0; at[l.axis] <= c.n[l.axis]; ++at[l.axis]) {
+    for (int i = 0; i < side; ++i) {
+      for (int j = 0; j < side; ++j) {
+        // One cell's folding diagonal; along the lines these make, all become one.
+        std::array<int, 3> from = at, to = at;
+        from[u] = remaining[0][i], to[u] = remaining[0][i + 1];
+        from[v] = remaining[1][other ? j + 1 : j], to[v] = remaining[1][other ? j : j + 1];
+        builder.join(bc.vertex(c, from[0], from[1], from[2]), bc.vertex(c, to[0], to[1], to[2]));
+      }
+    }
+  }
+  builder.remove(bc.cells(c));
+}
+
+std::vector<int> all_coordinates(int n) {
+  std::vector<int> result(n + 1);
+  std::iota(result.begin(), result.end(), 0);
+  return result;
+}
+
+}  // namespace
+
+Refusal can_plan(const BaseComplex& bc, const Chord& chord, const std::vector<Sheet>& sheets) {
+  if (chord.twisted || chord.self_crossing) return Refusal::twisted;
+  const int id = sheet_to_shorten(bc, chord, sheets);
+  const bool simple =
+      id < 0 || sheets[id].kind == SheetKind::open || sheets[id].kind == SheetKind::closed;
+  return simple ? Refusal::none : Refusal::unequal_sides;
 }
 
 CollapsePlan plan_chord_collapse(const HexMesh& mesh, const BaseComplex& bc, const Chord& chord,
-                                 Diagonal diagonal) {
+                                 Diagonal diagonal, const std::vector<Sheet>& sheets) {
   PlanBuilder builder(mesh);
-  int side = 0;
+  const auto axes = section_axes(chord.links.front());
+  const auto& n = bc.components[chord.links.front().component].n;
+  const int side = std::min(n[axes[0]], n[axes[1]]);
+  std::optional<LayerRemoval> shorten;
+  if (const int id = sheet_to_shorten(bc, chord, sheets); id >= 0) {
+    shorten.emplace(mesh, bc, sheets[id], sheets[id].width - side);
+    shorten->add_to(builder);
+  }
   for (const ChordLink& l : chord.links) {
-    const Component& c = bc.components[l.component];
-    // The cross-section's axes in the order that numbers its parallel edges: 0 and 3 are (0,0),
-    // (n,n).
-    const int u = l.axis == 0 ? 1 : 0, v = l.axis == 2 ? 1 : 2;
-    const bool other = l.turned != (diagonal == Diagonal::second);
-    side = c.n[u];
-    std::array<int, 3> at;
-    for (at[l.axis] = 0; at[l.axis] <= c.n[l.axis]; ++at[l.axis]) {
-      for (at[u] = 0; at[u] < side; ++at[u]) {
-        for (at[v] = 0; at[v] < side; ++at[v]) {
-          // One cell's folding diagonal; along the lines these make, all become one.
-          std::array<int, 3> from = at, to = at;
-          ++to[u];
-          ++(other ? from : to)[v];
-          builder.join(bc.vertex(c, from[0], from[1], from[2]), bc.vertex(c, to[0], to[1], to[2]));
-        }
-      }
+    const auto section = section_axes(l);
+    std::array<std::vector<int>, 2> remaining;
+    for (int i = 0; i < 2; ++i) {
+      const int cells = bc.components[l.component].n[section[i]];
+      remaining[i] =
+          cells == side ? all_coordinates(cells) : shorten->remaining({l.component, section[i]});
     }
-    builder.remove(bc.cells(c));
+    fold(builder, bc, l, l.turned != (diagonal == Diagonal::second), remaining);
   }
   return builder.finish(side);
 }

@@ -29,11 +29,14 @@ struct CollapsePlan {
 /// merge.
 CollapsePlan plan_sheet_collapse(const HexMesh& mesh, const BaseComplex& bc, const Sheet& sheet);
 
-/// The cross-section is folded along a diagonal: vertices on a line along it become one.
+/// The cross-section is folded along a diagonal: vertices on a line along it become one. Where its
+/// sides have different counts of cells, as many layers of the sheet across the longer one are
+/// collapsed with it, the thinnest first.
+/// \param sheets  all of this base complex
 /// \pre can_plan(chord) is Refusal::none
 CollapsePlan plan_chord_collapse(const HexMesh& mesh, const BaseComplex& bc, const Chord& chord,
-                                 Diagonal diagonal);
-Refusal can_plan(const BaseComplex& bc, const Chord& chord);
+                                 Diagonal diagonal, const std::vector<Sheet>& sheets);
+Refusal can_plan(const BaseComplex& bc, const Chord& chord, const std::vector<Sheet>& sheets);
 
 /// A mesh edge that comes to be when a plan is carried out, by the vertices that stand for its ends
 /// (the first member of a group, or the vertex itself).

@@ -18,6 +18,7 @@ class DirectedClasses {
     }
   }
   bool two_sided(int edge) { return sets_.find(2 * edge) != sets_.find(2 * edge + 1); }
+  bool against(int edge) { return sets_.find(2 * edge) > sets_.find(2 * edge + 1); }
   int sheet(int edge) { return std::min(sets_.find(2 * edge), sets_.find(2 * edge + 1)); }
 
  private:
@@ -82,6 +83,7 @@ std::vector<Sheet> extract_sheets(const BaseComplex& bc) {
       sheets.emplace_back().width = bc.edges[e].n;
     }
     sheets[id].edges.push_back(e);
+    sheets[id].against.push_back(classes.against(e));
   }
   for (int c = 0; c < static_cast<int>(bc.components.size()); ++c) {
     for (int axis = 0; axis < 3; ++axis) {

@@ -27,7 +27,8 @@ struct Crossing {
 };
 
 struct Sheet {
-  std::vector<int> edges;           ///< E_M: the parallel base edges, ascending
+  std::vector<int> edges;     ///< E_M: the parallel base edges, ascending
+  std::vector<char> against;  ///< by edge: 1 where its chain runs against the sheet's direction
   std::vector<Crossing> crossings;  ///< by component, then axis
   int width = 0;                    ///< layers of cells: mesh edges in each of its base edges
   SheetKind kind = SheetKind::open;

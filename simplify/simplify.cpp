@@ -34,11 +34,11 @@ void check_input(const HexMesh& mesh) {
 }
 
 // The loop samples the surface less densely than the last check: it keeps this share of the limit.
-constexpr double kLoopShare = 0.98;
+constexpr double kLoopShare = 0.95;
 // Below this share of the wanted count of cells a sheet is split.
 constexpr double kRefineBelow = 0.9;
 // A verified copy of the mesh is kept whenever the components have fallen by this factor.
-constexpr double kVerifyEvery = 0.8;
+constexpr double kVerifyEvery = 0.6;
 
 // One run: the mesh, what belongs to it, and the state of the loop.
 class Run {
@@ -61,10 +61,11 @@ class Run {
   }
 
   SimplifyReport run() {
+    // Splitting a sheet comes before a second look at what failed lately: it gives that more room.
+    const double long_enough = RefineOptions().min_length_rel;
     while (!should_stop()) {
-      if (is_short_of_cells(kRefineBelow)) refine(RefineOptions().min_length_rel);
-      if (!collapse_one(true) && !collapse_one(false) && !refine(RefineOptions().min_length_rel))
-        break;
+      if (is_short_of_cells(kRefineBelow)) refine(long_enough);
+      if (!collapse_one(true) && !refine(long_enough) && !collapse_one(false)) break;
     }
     if (report_.stopped != StopReason::interrupted) {
       while (is_short_of_cells(kRefineBelow) && refine(0)) {
@@ -125,8 +126,8 @@ class Run {
   bool collapse_chord(const CandidateQueues& q, bool patient) {
     for (const Candidate& c : q.chord_queue) {
       if (should_stop()) return true;
-      const CollapsePlan plan =
-          plan_chord_collapse(mesh_, bc_, q.chords[c.index], q.chord_terms[c.index].diagonal);
+      const CollapsePlan plan = plan_chord_collapse(mesh_, bc_, q.chords[c.index],
+                                                    q.chord_terms[c.index].diagonal, q.sheets);
       if (attempt(plan, report_.chords, patient)) return true;
     }
     return false;

@@ -52,6 +52,10 @@ bool same_shape(const TopologySummary& a, const TopologySummary& b) {
          a.genus == b.genus;
 }
 
+// What half a parametrization must have reached of the floors for the other half to be worth its time.
+constexpr double kHalfway = 0.3;
+constexpr double kHalfwayMean = 0.05;
+
 // Parametrizes in two parts, so that what ends far off the surface is given up early. A step may
 // lower the quality of its region to the floors, but where it was under them already, not any
 // further.
@@ -61,15 +65,14 @@ Refusal relax_region(TrialContext& context, std::span<const CellHandle> region,
   std::vector<CellHandle> touched(region.begin(), region.end());
   touched.insert(touched.end(), plan.removed.begin(), plan.removed.end());
   const double least = std::max(std::min(options.min_scaled_jacobian, old.least), 1e-3);
+  const double mean = std::min(options.mean_scaled_jacobian, old.mean);
   const int first = std::min(2, p.max_iterations);
   for (const bool last : {false, true}) {
     p.max_iterations = last ? std::max(1, options.parametrization.max_iterations - first) : first;
-    p.min_scaled_jacobian = last ? least : 0;
+    p.min_scaled_jacobian = last ? least : kHalfway * least;
     const ParametrizationReport report = parametrize(context.mesh, region, context.reference, p);
     if (!report.valid()) return refusal_of(report.failure);
-    if (last && report.mean_scaled_jacobian < std::min(options.mean_scaled_jacobian, old.mean)) {
-      return Refusal::quality;
-    }
+    if (report.mean_scaled_jacobian < (last ? 1 : 1 - kHalfwayMean) * mean) return Refusal::quality;
     const double limit = (last ? 1 : options.give_up_factor) * context.distance_limit;
     const bool far = context.distance.after_change(context.mesh, touched, limit) > limit;
     if (far || !last) context.distance.rollback();
