@@ -1,0 +1,129 @@
+/// \file
+/// Meshes whose structure is known by hand, and what several tests of simplify/ ask of a mesh.
+#pragma once
+
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "ovm/edit/insert_sheet.h"
+#include "ovm/generators.h"
+#include "ovm/hex_mesh.h"
+#include "ovm/quality.h"
+#include "ovm/topology_check.h"
+#include "ovm/topology_summary.h"
+#include "simplify/base_complex.h"
+
+namespace hexweft {
+
+/// Quadrilaterals in the plane, swept up by `n_layers` unit layers.
+inline HexMesh extrude(const std::vector<std::array<double, 2>>& points,
+                       const std::vector<std::array<int, 4>>& quads, int n_layers = 1) {
+  HexMesh mesh;
+  const int n = static_cast<int>(points.size());
+  for (int k = 0; k <= n_layers; ++k) {
+    for (const auto& [x, y] : points) mesh.add_vertex({x, y, double(k)});
+  }
+  for (int k = 0; k < n_layers; ++k) {
+    for (const auto& q : quads) {
+      CellVertices c;
+      for (int i = 0; i < 4; ++i) {
+        c[i] = VertexHandle(n * k + q[i]);
+        c[i + 4] = VertexHandle(n * (k + 1) + q[i]);
+      }
+      mesh.add_cell(c);
+    }
+  }
+  return mesh;
+}
+
+/// A ribbon that runs round a hole and crosses itself in its cell 0, two-sided:
+///
+///      o-------o
+///      | o---o |
+///      | |   | |
+///    o-o-o---o |
+///    o-o-o-----o
+///      o-o
+inline HexMesh make_crossing_ribbon() {
+  const std::vector<std::array<double, 2>> points = {{0, 0},  {1, 0},  {1, 1},  {0, 1}, {-1, 0},
+                                                     {-1, 1}, {0, -1}, {1, -1}, {3, 0}, {2, 1},
+                                                     {3, 3},  {2, 2},  {0, 3},  {1, 2}};
+  return extrude(points, {{0, 1, 2, 3},
+                          {4, 0, 3, 5},
+                          {6, 7, 1, 0},
+                          {1, 8, 9, 2},
+                          {8, 10, 11, 9},
+                          {10, 12, 13, 11},
+                          {12, 3, 2, 13}});
+}
+
+/// A ribbon that turns back round a hole and lies along itself: cells 0 and 5 share a side that is
+/// parallel to the ribbon.
+inline HexMesh make_touching_ribbon() {
+  const std::vector<std::array<double, 2>> points = {{0, 0}, {1, -0.5}, {2, -1}, {4, 1},
+                                                     {2, 3}, {1, 2.5},  {0, 2},  {0, 1},
+                                                     {1, 1}, {2, 0.5},  {3, 1},  {2, 1.5}};
+  return extrude(
+      points,
+      {{0, 1, 8, 7}, {1, 2, 9, 8}, {2, 3, 10, 9}, {3, 4, 11, 10}, {4, 5, 8, 11}, {5, 6, 7, 8}});
+}
+
+/// Three cells round a hole with three sides. Cell 1 joins the vertices 0 and 1 of one of its
+/// edges; cell 0 has both as opposite corners. Topology only: the cells are folded.
+inline HexMesh make_folded_ring() {
+  const std::vector<std::array<double, 2>> points = {{0, 0},   {1, 0}, {0.5, 1},
+                                                     {0.5, 2}, {2, 0}, {2, 2}};
+  return extrude(points, {{0, 1, 4, 3}, {0, 3, 1, 2}, {1, 3, 5, 4}});
+}
+
+/// A grid with a closed sheet round the cell in its middle. n odd, >= 3.
+inline HexMesh make_pillowed_grid(int n) {
+  HexMesh mesh = make_grid({n, n, n});
+  const CellHandle middle(n * n * n / 2);
+  insert_sheet(mesh, std::array{middle});
+  mesh.collect_garbage();
+  return mesh;
+}
+
+/// Adds another mesh, moved by `offset`, as parts of their own.
+inline void append(HexMesh& mesh, const HexMesh& other, const Eigen::Vector3d& offset) {
+  std::vector<VertexHandle> copy(other.vertex_slots());
+  for (VertexHandle v : other.vertices()) copy[v.idx] = mesh.add_vertex(other.point(v) + offset);
+  for (CellHandle c : other.cells()) {
+    CellVertices corners = other.vertices(c);
+    for (VertexHandle& v : corners) v = copy[v.idx];
+    mesh.add_cell(corners);
+  }
+}
+
+using BaseCounts = std::array<int, 4>;  ///< (B_V, B_E, B_F, B_C)
+
+inline BaseCounts counts(const BaseComplex& bc) {
+  return {int(bc.vertices.size()), int(bc.edges.size()), int(bc.faces.size()),
+          int(bc.components.size())};
+}
+
+/// Coordinates and cells, to compare meshes bit for bit.
+struct MeshContent {
+  std::vector<std::array<double, 3>> points;
+  std::vector<CellVertices> cells;
+  friend bool operator==(const MeshContent&, const MeshContent&) = default;
+};
+inline MeshContent content(const HexMesh& mesh) {
+  MeshContent result;
+  for (VertexHandle v : mesh.vertices()) {
+    const Eigen::Vector3d& p = mesh.point(v);
+    result.points.push_back({p.x(), p.y(), p.z()});
+  }
+  for (CellHandle c : mesh.cells()) result.cells.push_back(mesh.vertices(c));
+  return result;
+}
+
+/// Valid in the sense of the loop, apart from its distance to the input.
+inline bool is_good(const HexMesh& mesh) {
+  return is_clean(check_topology(mesh), Severity::degenerate) && min_scaled_jacobian(mesh) > 0 &&
+         extract_base_complex(mesh).irregular == 0;
+}
+
+}  // namespace hexweft
