@@ -26,9 +26,9 @@ struct SimplifyOptions {
   bool chords = true;  ///< collapse chords between sheets
 
   double hausdorff_limit_rel = 0.01;  ///< (0, 1], of the input's bounding-box diagonal, both ways
-  double min_scaled_jacobian = 0.15;  ///< [0, 1); a step may not leave its region below both this
+  double min_scaled_jacobian = 0.1;  ///< [0, 1); a step may not leave its region below both this
                                       ///< and what it found there
-  double mean_scaled_jacobian = 0.8;  ///< [0, 1); the same for the mean over the region
+  double mean_scaled_jacobian = 0.7;  ///< [0, 1); the same for the mean over the region
   double target_hexahedra_rel = 1.0;  ///< > 0, of the input's count; below it sheets are refined
   int rings = 4;                      ///< > 0, rings of cells round a collapse that move, per layer
   bool smooth = true;                 ///< global smoothing at the end

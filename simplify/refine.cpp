@@ -76,8 +76,10 @@ bool try_refine(TrialContext& context, const DualSheet& sheet, const SimplifyOpt
   for (const SplitVertex& s : split.vertices) {
     added.push_back(s.vertex);
   }
-  const std::vector<CellHandle> region = cells_around(mesh, added, options.rings);
+  // A split changes no shape by much: a narrow region and few iterations do.
+  const std::vector<CellHandle> region = cells_around(mesh, added, (options.rings + 1) / 2);
   ParametrizationOptions parametrization = options.parametrization;
+  parametrization.max_iterations = std::min(2, parametrization.max_iterations);
   parametrization.min_scaled_jacobian = floor * (1 - 1e-9);
   if (!parametrize(mesh, region, context.reference, parametrization).valid()) return false;
   std::vector<CellHandle> touched = region;

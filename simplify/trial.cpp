@@ -70,6 +70,9 @@ Refusal relax_region(TrialContext& context, std::span<const CellHandle> region,
   for (const bool last : {false, true}) {
     p.max_iterations = last ? std::max(1, options.parametrization.max_iterations - first) : first;
     p.min_scaled_jacobian = last ? least : kHalfway * least;
+    // Fitting asks for several closest points a quadrilateral; it matters in the end only.
+    p.surface.treatment =
+        last ? options.parametrization.surface.treatment : SurfaceTreatment::project;
     const ParametrizationReport report = parametrize(context.mesh, region, context.reference, p);
     if (!report.valid()) return refusal_of(report.failure);
     if (report.mean_scaled_jacobian < (last ? 1 : 1 - kHalfwayMean) * mean) return Refusal::quality;
