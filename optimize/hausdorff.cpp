@@ -15,12 +15,13 @@ namespace {
 /// Looks for the sample farthest from a surface.
 class FarthestSample {
  public:
-  explicit FarthestSample(const ReferenceSurface& to) : to_(to) {}
+  FarthestSample(const ReferenceSurface& to, double at_least) : to_(to), farthest_(at_least) {}
 
   double look_at(const Eigen::Vector3d& p) {
-    const double d = to_.closest(p).distance;
-    farthest_ = std::max(farthest_, d);
-    return d;
+    const SurfacePoint s = to_.closest(p, near_);
+    near_ = s.triangle;
+    farthest_ = std::max(farthest_, s.distance);
+    return s.distance;
   }
 
   /// Samples a triangle and its `levels` subdivisions into four. The distance changes by no more
@@ -34,7 +35,7 @@ class FarthestSample {
     const double d = look_at(centroid);
     if (levels == 0 || d + reach <= farthest_) return;
     const Eigen::Vector3d ab = (a + b) / 2, bc = (b + c) / 2, ca = (c + a) / 2;
-    for (const Eigen::Vector3d* p : {&ab, &bc, &ca}) look_at(*p);
+    for (const Eigen::Vector3d* p : {&a, &b, &c, &ab, &bc, &ca}) look_at(*p);
     look_at(ab, bc, ca, levels - 1);
     look_at(a, ab, ca, levels - 1);
     look_at(ab, b, bc, levels - 1);
@@ -45,13 +46,17 @@ class FarthestSample {
 
  private:
   const ReferenceSurface& to_;
-  double farthest_ = 0;
+  double farthest_;
+  int near_ = -1;  // where the last sample was closest
 };
 
 void check(const HausdorffOptions& o) {
   if (o.points_per_triangle <= 0) {
     throw InputError("points_per_triangle = " + std::to_string(o.points_per_triangle) +
                      ", expected > 0");
+  }
+  if (!(o.at_least >= 0)) {
+    throw InputError("at_least = " + std::to_string(o.at_least) + ", expected >= 0");
   }
   if (o.points_per_surface < 0) {
     throw InputError("points_per_surface = " + std::to_string(o.points_per_surface) +
@@ -67,6 +72,13 @@ int levels_for(double n) {
 }
 
 }  // namespace
+
+bool is_within(const HexMesh& mesh, const ReferenceSurface& reference, double limit,
+               const HausdorffOptions& options) {
+  HausdorffOptions o = options;
+  o.at_least = 0.999 * limit;
+  return hausdorff_distance(mesh, reference, o).distance() <= limit;
+}
 
 double one_sided_distance(const ReferenceSurface& from, const ReferenceSurface& to,
                           const HausdorffOptions& options) {
@@ -85,8 +97,7 @@ double one_sided_distance(const ReferenceSurface& from, const ReferenceSurface& 
           ? options.points_per_surface
           : static_cast<double>(options.points_per_triangle) *
                 static_cast<double>(std::max(triangles.size(), to.triangles().size()));
-  FarthestSample farthest(to);
-  for (Eigen::Index v = 0; v < points.cols(); ++v) farthest.look_at(points.col(v));
+  FarthestSample farthest(to, options.at_least);
   for (const auto& t : triangles) {
     const double share = area > 0 ? wanted * area_of(t) / area : 0;
     farthest.look_at(points.col(t[0]), points.col(t[1]), points.col(t[2]),

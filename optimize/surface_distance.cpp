@@ -151,7 +151,12 @@ double SurfaceDistance::forward_distance(const HexMesh& mesh, int side, double l
                                          VertexAndEdgeCache& cache) const {
   const HalfFaceHandle hf(side);
   const QuadPoints& q = grid_.points(side);
-  const auto at = [&](const Eigen::Vector3d& p) { return reference_.closest(p).distance; };
+  int near = -1;
+  const auto at = [&](const Eigen::Vector3d& p) {
+    const SurfacePoint s = reference_.closest(p, near);
+    near = s.triangle;
+    return s.distance;
+  };
   const auto vertices = mesh.vertices(hf);
   const auto edges = mesh.edges(hf);
   double d = at((q[0] + q[2]) / 2);

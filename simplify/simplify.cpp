@@ -38,7 +38,7 @@ constexpr double kLoopShare = 0.95;
 // Below this share of the wanted count of cells a sheet is split.
 constexpr double kRefineBelow = 0.9;
 // A verified copy of the mesh is kept whenever the components have fallen by this factor.
-constexpr double kVerifyEvery = 0.6;
+constexpr double kVerifyEvery = 0.5;
 
 // One run: the mesh, what belongs to it, and the state of the loop.
 class Run {
@@ -72,9 +72,6 @@ class Run {
       }
     }
     finish();
-    report_.after = measure_mesh(mesh_);
-    report_.hausdorff_ratio = hausdorff_distance(mesh_, reference_).ratio();
-    report_.seconds = seconds();
     return report_;
   }
 
@@ -160,7 +157,8 @@ class Run {
   }
 
   bool within_limit() const {
-    return hausdorff_distance(mesh_, reference_).ratio() <= options_.hausdorff_limit_rel;
+    return is_within(mesh_, reference_,
+                     options_.hausdorff_limit_rel * reference_.bounding_box_diagonal());
   }
 
   // Keeps a copy that is within the limit at full sampling; where this one is not, keeps more
@@ -185,11 +183,15 @@ class Run {
   void finish() {
     if (!within_limit()) mesh_ = verified_;
     if (options_.smooth && report_.stopped != StopReason::interrupted) {
-      smooth(mesh_, reference_,
-             {.hausdorff_limit_rel = options_.hausdorff_limit_rel,
-              .parametrization = options_.parametrization});
+      const SmoothingOptions smoothing = {.hausdorff_limit_rel = options_.hausdorff_limit_rel,
+                                          .parametrization = options_.parametrization};
+      report_.hausdorff_ratio = smooth(mesh_, reference_, smoothing).hausdorff_rel;
+    } else {
+      report_.hausdorff_ratio = hausdorff_distance(mesh_, reference_).ratio();
     }
     mesh_.collect_garbage();
+    report_.after = measure_mesh(mesh_);
+    report_.seconds = seconds();
   }
 
   bool is_short_of_cells(double share) const {
