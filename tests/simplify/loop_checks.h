@@ -1,0 +1,39 @@
+/// \file
+/// What every output of the loop must be.
+#pragma once
+
+#include <gmock/gmock.h>
+
+#include "optimize/hausdorff.h"
+#include "simplify/simplify.h"
+#include "tests/simplify/test_meshes.h"
+
+namespace hexweft {
+
+/// Valid, of the input's genus and parts, near the input; and the report says the truth of it.
+inline void expect_good_output(const HexMesh& input, const HexMesh& output,
+                               const SimplifyReport& report, double limit_rel = 0.01) {
+  EXPECT_THAT(check_topology(output), testing::IsEmpty());
+  EXPECT_GT(min_scaled_jacobian(output), 0);
+  EXPECT_EQ(output.n_cells(), output.cell_slots());
+  EXPECT_EQ(output.n_vertices(), output.vertex_slots());
+  const TopologySummary a = summarize_topology(input), b = summarize_topology(output);
+  EXPECT_EQ(b.n_parts, a.n_parts);
+  EXPECT_EQ(b.genus, a.genus);
+  EXPECT_EQ(b.n_boundary_components, a.n_boundary_components);
+  EXPECT_EQ(b.euler_characteristic, a.euler_characteristic);
+  const double ratio = hausdorff_distance(output, make_reference_surface(input)).ratio();
+  EXPECT_LE(ratio, limit_rel);
+  EXPECT_EQ(report.hausdorff_ratio, ratio);
+
+  const BaseComplex before = extract_base_complex(input), after = extract_base_complex(output);
+  EXPECT_EQ(after.irregular, 0);
+  EXPECT_LE(after.components.size(), before.components.size());
+  EXPECT_EQ(report.before.components, static_cast<int>(before.components.size()));
+  EXPECT_EQ(report.after.components, static_cast<int>(after.components.size()));
+  EXPECT_EQ(report.before.hexahedra, input.n_cells());
+  EXPECT_EQ(report.after.hexahedra, output.n_cells());
+  EXPECT_EQ(report.after.min_scaled_jacobian, min_scaled_jacobian(output));
+}
+
+}  // namespace hexweft

@@ -1,0 +1,107 @@
+// Bad options and meshes are refused by name, and nothing is changed.
+#include <gmock/gmock.h>
+
+#include "ovm/errors.h"
+#include "simplify/simplify.h"
+#include "tests/ovm/mesh_dump.h"
+#include "tests/simplify/test_meshes.h"
+
+namespace hexweft {
+namespace {
+
+struct BadOption {
+  std::string name;
+  std::function<void(SimplifyOptions&)> spoil;
+  friend std::ostream& operator<<(std::ostream& out, const BadOption& b) { return out << b.name; }
+};
+
+class EveryBadOption : public testing::TestWithParam<BadOption> {};
+
+TEST_P(EveryBadOption, IsAnInputErrorThatNamesIt) {
+  SimplifyOptions options;
+  GetParam().spoil(options);
+  HexMesh mesh = make_pillowed_grid(3);
+  const MeshDump before(mesh);
+  try {
+    simplify(mesh, options);
+    FAIL() << "accepted";
+  } catch (const InputError& e) {
+    EXPECT_THAT(e.what(), testing::HasSubstr(GetParam().name + " = "));
+    EXPECT_THAT(e.what(), testing::HasSubstr("expected"));
+  }
+  EXPECT_TRUE(MeshDump(mesh) == before);
+}
+
+using O = SimplifyOptions;
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+INSTANTIATE_TEST_SUITE_P(
+    Options, EveryBadOption,
+    testing::Values(BadOption{"hausdorff_limit_rel", [](O& o) { o.hausdorff_limit_rel = 0; }},
+                    BadOption{"hausdorff_limit_rel", [](O& o) { o.hausdorff_limit_rel = 2; }},
+                    BadOption{"hausdorff_limit_rel", [](O& o) { o.hausdorff_limit_rel = kNaN; }},
+                    BadOption{"min_scaled_jacobian", [](O& o) { o.min_scaled_jacobian = -0.1; }},
+                    BadOption{"min_scaled_jacobian", [](O& o) { o.min_scaled_jacobian = 1; }},
+                    BadOption{"mean_scaled_jacobian", [](O& o) { o.mean_scaled_jacobian = 1; }},
+                    BadOption{"mean_scaled_jacobian", [](O& o) { o.mean_scaled_jacobian = kNaN; }},
+                    BadOption{"target_hexahedra_rel", [](O& o) { o.target_hexahedra_rel = 0; }},
+                    BadOption{"rings", [](O& o) { o.rings = 0; }},
+                    BadOption{"give_up_factor", [](O& o) { o.give_up_factor = 0.5; }},
+                    BadOption{"max_chord_deviation", [](O& o) { o.max_chord_deviation = -1; }},
+                    BadOption{"target_rate", [](O& o) { o.target_rate = 1.5; }},
+                    BadOption{"target_rate", [](O& o) { o.target_rate = -0.5; }},
+                    BadOption{"target_components", [](O& o) { o.target_components = 0; }},
+                    BadOption{"max_seconds", [](O& o) { o.max_seconds = 0; }},
+                    BadOption{"max_iterations",
+                              [](O& o) { o.parametrization.max_iterations = 0; }}));
+
+TEST(Options, DefaultsAreValid) { EXPECT_NO_THROW(validate(SimplifyOptions())); }
+
+void expect_refused(HexMesh& mesh, const std::string& message) {
+  const MeshDump before(mesh);
+  try {
+    simplify(mesh);
+    FAIL() << "accepted";
+  } catch (const InputError& e) {
+    EXPECT_THAT(e.what(), testing::HasSubstr(message));
+  }
+  EXPECT_TRUE(MeshDump(mesh) == before);
+}
+
+TEST(Input, InvertedCellIsNamed) {
+  HexMesh mesh = make_grid({4, 4, 4});
+  // The vertex (1, 1, 1) is drawn through the cells on its far side.
+  mesh.set_point(VertexHandle(1 + 5 + 25), {2.5, 2.5, 2.5});
+  expect_refused(mesh, "cell ");
+  HexMesh cube = make_grid({1, 1, 1});
+  cube.set_point(VertexHandle(7), {-1, -1, -1});
+  expect_refused(cube, "cell 0 ");
+}
+
+// A mesh dump with NaN in it does not equal itself; the counts have to do.
+void expect_coordinate_refused(double x) {
+  HexMesh mesh = make_grid({2, 2, 2});
+  mesh.set_point(VertexHandle(13), {1, x, 1});
+  EXPECT_THROW(simplify(mesh), InputError);
+  EXPECT_EQ(mesh.n_cells(), 8);
+  EXPECT_EQ(mesh.point(VertexHandle(0)), Eigen::Vector3d(0, 0, 0));
+}
+
+TEST(Input, CoordinateThatIsNoNumberIsRefused) { expect_coordinate_refused(kNaN); }
+
+TEST(Input, DISABLED_InfiniteCoordinateIsRefused) {
+  expect_coordinate_refused(std::numeric_limits<double>::infinity());
+}
+
+TEST(Input, EmptyMeshIsRefused) {
+  HexMesh mesh;
+  expect_refused(mesh, "no cells");
+}
+
+TEST(Input, MeshThatIsNoManifoldIsRefused) {
+  // Two cells that share an edge alone.
+  HexMesh mesh = make_voxels(VoxelSet({2, 2, 1}, [](int x, int y, int) { return x == y; }));
+  expect_refused(mesh, "the mesh is not valid");
+}
+
+}  // namespace
+}  // namespace hexweft

@@ -1,0 +1,144 @@
+// Refinement splits sheets and leaves the base complex as it is.
+#include "simplify/refine.h"
+
+#include <algorithm>
+
+#include <gmock/gmock.h>
+
+#include "tests/mesh_families.h"
+#include "tests/ovm/mesh_dump.h"
+#include "tests/simplify/test_meshes.h"
+
+namespace hexweft {
+namespace {
+
+struct Bench {
+  explicit Bench(HexMesh m)
+      : mesh(std::move(m)),
+        reference(make_reference_surface(mesh)),
+        distance(mesh, reference),
+        context{mesh, reference, distance, summarize_topology(mesh),
+                0.01 * reference.bounding_box_diagonal()} {}
+  std::optional<DualSheet> choose(const RefineOptions& o,
+                                  std::span<const EdgeHandle> excluded = {}) const {
+    return choose_sheet_to_refine(mesh, distance, o, excluded);
+  }
+  HexMesh mesh;
+  ReferenceSurface reference;
+  SurfaceDistance distance;
+  TrialContext context;
+};
+
+// 3 x 2 x 2 cells of size 2 x 1 x 1.
+HexMesh make_long_cells() {
+  return make_grid({3, 2, 2},
+                   Eigen::AlignedBox3d(Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(6, 2, 2)));
+}
+
+double mean_length(const HexMesh& mesh, const DualSheet& s) {
+  double sum = 0;
+  for (EdgeHandle e : s.edges) {
+    const auto [a, b] = mesh.vertices(e);
+    sum += (mesh.point(a) - mesh.point(b)).norm();
+  }
+  return sum / static_cast<double>(s.edges.size());
+}
+
+TEST(ChooseSheetToRefine, TakesOneThatIsLongAcross) {
+  const Bench b(make_long_cells());
+  const auto s = b.choose({.max_cells = 100});
+  ASSERT_TRUE(s);
+  EXPECT_NEAR(mean_length(b.mesh, *s), 2, 1e-12);
+  EXPECT_EQ(s->crossings.size(), 4u);
+}
+
+TEST(ChooseSheetToRefine, RespectsTheNumberOfCells) {
+  const Bench b(make_long_cells());
+  EXPECT_FALSE(b.choose({.max_cells = 3}));
+  EXPECT_TRUE(b.choose({.max_cells = 4}));
+}
+
+TEST(ChooseSheetToRefine, RespectsTheLength) {
+  // The mean edge has length 1.36.
+  const Bench b(make_long_cells());
+  EXPECT_TRUE(b.choose({.max_cells = 100, .min_length_rel = 1.4}));
+  EXPECT_FALSE(b.choose({.max_cells = 100, .min_length_rel = 1.5}));
+}
+
+TEST(ChooseSheetToRefine, LeavesOutWhatIsExcluded) {
+  const Bench b(make_long_cells());
+  std::vector<EdgeHandle> excluded;
+  while (const auto s = b.choose({.max_cells = 100}, excluded)) {
+    EXPECT_EQ(std::count(excluded.begin(), excluded.end(), s->edges.front()), 0);
+    excluded.push_back(s->edges.front());
+    ASSERT_LE(excluded.size(), 3u);
+  }
+  EXPECT_EQ(excluded.size(), 3u);  // the three sheets across the long direction
+}
+
+TEST(ChooseSheetToRefine, PrefersTheLongestOfTheFarthest) {
+  HexMesh mesh = make_grid({3, 1, 1});
+  for (VertexHandle v : mesh.vertices()) {
+    Eigen::Vector3d p = mesh.point(v);
+    p.x() = p.x() == 0 ? 0 : p.x() == 1 ? 2 : p.x() == 2 ? 5 : 7.5;
+    mesh.set_point(v, p);
+  }
+  const Bench b(mesh);
+  const auto s = b.choose({.max_cells = 1});
+  ASSERT_TRUE(s);
+  EXPECT_NEAR(mean_length(b.mesh, *s), 3, 1e-12);
+}
+
+TEST(TryRefine, SplitsEachCellOfTheSheet) {
+  Bench b(make_long_cells());
+  const auto s = b.choose({.max_cells = 100});
+  ASSERT_TRUE(s && try_refine(b.context, *s, {}));
+  EXPECT_EQ(b.mesh.n_cells(), 12 + 4);
+  EXPECT_EQ(counts(extract_base_complex(b.mesh)), (BaseCounts{8, 12, 6, 1}));
+  EXPECT_LE(b.distance.distance(), b.context.distance_limit);
+}
+
+class RefinementOfEveryFamily : public testing::TestWithParam<MeshFamily> {};
+INSTANTIATE_TEST_SUITE_P(, RefinementOfEveryFamily, testing::ValuesIn(mesh_families()),
+                         family_name);
+
+// The sheets to split: up to twelve, spread over the mesh.
+std::vector<EdgeHandle> some_sheets(const HexMesh& mesh) {
+  const auto sheets = list_dual_sheets(mesh);
+  std::vector<EdgeHandle> result;
+  for (std::size_t i = 0; i < sheets.size(); i += sheets.size() / 12 + 1) {
+    result.push_back(sheets[i].edges.front());
+  }
+  return result;
+}
+
+TEST_P(RefinementOfEveryFamily, KeepsTheBaseComplexOrEverything) {
+  const HexMesh before = GetParam().make();
+  const BaseComplex bc = extract_base_complex(before);
+  const int euler = euler_characteristic(before);
+  int refined = 0;
+  for (EdgeHandle e : some_sheets(before)) {
+    if (refined == 3) break;
+    Bench b(before);
+    const MeshDump dump(b.mesh);
+    const DualSheet sheet = dual_sheet(b.mesh, e);
+    if (!try_refine(b.context, sheet, {})) {
+      EXPECT_TRUE(MeshDump(b.mesh) == dump);
+      continue;
+    }
+    ++refined;
+    if (!sheet.crosses_itself()) {
+      EXPECT_EQ(b.mesh.n_cells(), before.n_cells() + static_cast<int>(sheet.crossings.size()));
+    }
+    EXPECT_TRUE(is_valid(b.mesh));
+    EXPECT_EQ(counts(extract_base_complex(b.mesh)), counts(bc));
+    EXPECT_EQ(euler_characteristic(b.mesh), euler);
+    EXPECT_GT(min_scaled_jacobian(b.mesh), 0);
+    EXPECT_LE(b.distance.distance(), b.context.distance_limit);
+  }
+  // Of some meshes every cell is about as bad as may be, so that no split is allowed.
+  EXPECT_TRUE(refined > 0 || min_scaled_jacobian(before) < 0.1);
+}
+
+}  // namespace
+}  // namespace hexweft

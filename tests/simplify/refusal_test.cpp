@@ -1,0 +1,154 @@
+// One planted case for each refusal that needs no geometry.
+#include <algorithm>
+
+#include <gmock/gmock.h>
+
+#include "simplify/candidates.h"
+#include "simplify/collapse_plan.h"
+#include "tests/mesh_families.h"
+#include "tests/simplify/test_meshes.h"
+
+namespace hexweft {
+namespace {
+
+// The sheet of the mesh edge between two vertices.
+Refusal refusal_of_sheet(const HexMesh& mesh, VertexHandle a, VertexHandle b) {
+  const BaseComplex bc = extract_base_complex(mesh);
+  const int edge = bc.base_edge_of_edge[mesh.find_edge(a, b).idx];
+  for (const Sheet& s : extract_sheets(bc)) {
+    if (!std::binary_search(s.edges.begin(), s.edges.end(), edge)) continue;
+    return check_plan(mesh, bc.graph, plan_sheet_collapse(mesh, bc, s));
+  }
+  ADD_FAILURE() << "no sheet";
+  return Refusal::none;
+}
+
+// Of a grid of unit cells with something missing.
+VertexHandle vertex_at(const HexMesh& mesh, double x, double y, double z) {
+  for (VertexHandle v : mesh.vertices()) {
+    if ((mesh.point(v) - Eigen::Vector3d(x, y, z)).norm() < 1e-9) return v;
+  }
+  return VertexHandle();
+}
+
+Refusal refusal_of_sheet(const HexMesh& mesh, const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return refusal_of_sheet(mesh, vertex_at(mesh, a.x(), a.y(), a.z()),
+                          vertex_at(mesh, b.x(), b.y(), b.z()));
+}
+
+TEST(Refusal, NothingLeftIsVanishing) {
+  EXPECT_EQ(refusal_of_sheet(make_grid({2, 2, 2}), {0, 0, 0}, {1, 0, 0}), Refusal::vanishing);
+}
+
+TEST(Refusal, OneOfTwoPartsIsVanishing) {
+  EXPECT_EQ(refusal_of_sheet(make_two_boxes(), {0, 0, 0}, {1, 0, 0}), Refusal::vanishing);
+}
+
+TEST(Refusal, ThinPlateBetweenTwoBlocksIsVanishing) {
+  // The plate is one cell thick; its sheet takes the middle layer of both blocks along.
+  const HexMesh mesh =
+      make_voxels(VoxelSet({7, 3, 3}, [](int x, int, int z) { return x < 2 || x > 4 || z == 1; }));
+  EXPECT_EQ(refusal_of_sheet(mesh, {2, 0, 1}, {2, 0, 2}), Refusal::vanishing);
+}
+
+TEST(Refusal, ThinWallOfACavityIsBoundary) {
+  EXPECT_EQ(refusal_of_sheet(make_hollow_box(), {0, 0, 0}, {1, 0, 0}), Refusal::boundary);
+}
+
+TEST(Refusal, MergingTwoCurvesOfValenceThreeIsValence) {
+  // 3 + 3 - 4 = 2 cells round the merged edge.
+  const HexMesh mesh = make_o_grid({.n_core = 1});
+  const BaseComplex bc = extract_base_complex(mesh);
+  int n = 0;
+  for (const Sheet& s : extract_sheets(bc)) {
+    const bool through_core = s.crossings.size() == 3;
+    if (!through_core) continue;
+    ++n;
+    EXPECT_EQ(check_plan(mesh, bc.graph, plan_sheet_collapse(mesh, bc, s)), Refusal::valence);
+  }
+  EXPECT_EQ(n, 2);
+}
+
+TEST(Refusal, ValenceLimitsAreOptions) {
+  // The two arms of a cross: between them edges of three cells on the boundary become 3 + 3 - 2.
+  const HexMesh mesh =
+      make_voxels(VoxelSet({3, 3, 1}, [](int x, int y, int) { return x == 1 || y == 1; }));
+  const BaseComplex bc = extract_base_complex(mesh);
+  int strict = 0;
+  for (const Sheet& s : extract_sheets(bc)) {
+    const CollapsePlan plan = plan_sheet_collapse(mesh, bc, s);
+    const Refusal usual = check_plan(mesh, bc.graph, plan);
+    if (usual != Refusal::none) continue;
+    strict += check_plan(mesh, bc.graph, plan, {.max_boundary = 1}) == Refusal::valence;
+  }
+  EXPECT_EQ(strict, 0);  // what exceeds the limit already may stay
+}
+
+TEST(Refusal, CellWithTwoVerticesOfAGroupIsDegenerate) {
+  // Cell 1 goes, and cell 0 has both vertices that become one as opposite corners.
+  const HexMesh mesh = make_folded_ring();
+  EXPECT_EQ(refusal_of_sheet(mesh, VertexHandle(0), VertexHandle(1)), Refusal::degenerate_cell);
+}
+
+TEST(Refusal, ChordOfUnequalSidesNeedsASimpleSheetToShortenIt) {
+  // Its section is 4 cells of a one-sided sheet by 2 of an open one.
+  const HexMesh mesh =
+      make_torus({.n_core = 4, .n_around = 6, .round_section = false, .n_quarter_turns = 1});
+  const BaseComplex bc = extract_base_complex(mesh);
+  int n = 0;
+  for (const Chord& c : extract_chords(bc)) {
+    if (!c.closed) n += can_plan(bc, c, extract_sheets(bc)) == Refusal::unequal_sides;
+  }
+  EXPECT_EQ(n, 6);
+  const BaseComplex grid = extract_base_complex(make_grid({4, 3, 2}));
+  for (const Chord& c : extract_chords(grid)) {
+    EXPECT_EQ(can_plan(grid, c, extract_sheets(grid)), Refusal::none);
+  }
+}
+
+TEST(Refusal, ChordWhoseDiagonalsFallTogetherIsTwisted) {
+  const BaseComplex bc =
+      extract_base_complex(make_torus({.round_section = false, .n_quarter_turns = 1}));
+  int n = 0;
+  for (const Chord& c : extract_chords(bc)) {
+    if (!c.closed) continue;
+    ++n;
+    EXPECT_EQ(can_plan(bc, c, extract_sheets(bc)), Refusal::twisted);
+  }
+  EXPECT_EQ(n, 1);
+}
+
+TEST(Refusal, ChordThatCrossesItselfIsTwisted) {
+  const BaseComplex bc = extract_base_complex(make_crossing_ribbon());
+  int n = 0;
+  for (const Chord& c : extract_chords(bc)) {
+    if (!c.self_crossing) continue;
+    ++n;
+    EXPECT_EQ(can_plan(bc, c, extract_sheets(bc)), Refusal::twisted);
+  }
+  EXPECT_EQ(n, 1);
+}
+
+TEST(Refusal, ChordsThatRemoveNoSingularEdgeAreNotQueued) {
+  // An untwisted chord through the middle cells of a pillowed grid, far from the pillow's edges.
+  const HexMesh mesh = make_pillowed_grid(5);
+  const BaseComplex bc = extract_base_complex(mesh);
+  const CandidateQueues q = make_queues(mesh, bc, {});
+  ASSERT_EQ(q.chords.size(), q.chord_terms.size());
+  std::vector<char> queued(q.chords.size(), 0);
+  for (const Candidate& c : q.chord_queue) queued[c.index] = 1;
+  for (std::size_t i = 0; i < q.chords.size(); ++i) {
+    const ChordTerms& t = q.chord_terms[i];
+    const bool passes = can_plan(bc, q.chords[i], q.sheets) == Refusal::none &&
+                        t.singular_groups >= 2 &&
+                        t.deviation <= SimplifyOptions().max_chord_deviation;
+    EXPECT_EQ(queued[i] != 0, passes);
+  }
+}
+
+TEST(Refusal, EachHasAName) {
+  for (int i = 0; i < kRefusals; ++i) EXPECT_FALSE(name(static_cast<Refusal>(i)).empty());
+}
+
+}  // namespace
+}  // namespace hexweft

@@ -1,0 +1,101 @@
+// The loop on octree-like meshes of a few hundred to a thousand cells.
+#include <gmock/gmock.h>
+
+#include "tests/mesh_families.h"
+#include "tests/simplify/loop_checks.h"
+
+namespace hexweft {
+namespace {
+
+double rate_of_sphere(int resolution) {
+  const HexMesh input = make_octree_like(Shape::sphere, resolution);
+  HexMesh mesh = input;
+  const SimplifyReport report = simplify(mesh);
+  expect_good_output(input, mesh, report);
+  return report.rate();
+}
+
+TEST(SimplifySlow, SpheresLoseMostOfTheirComponents) {
+  for (int resolution : {8, 10, 12}) EXPECT_GT(rate_of_sphere(resolution), 0.8) << resolution;
+}
+
+// Every cell of these is a component of its own.
+TEST(SimplifySlow, DISABLED_SpheresOfOddResolutionLoseMostOfTheirComponents) {
+  for (int resolution : {7, 9}) EXPECT_GT(rate_of_sphere(resolution), 0.8) << resolution;
+}
+
+TEST(SimplifySlow, TorusKeepsGenusOne) {
+  const HexMesh input = make_octree_like(Shape::torus, 12);
+  HexMesh mesh = input;
+  const SimplifyReport report = simplify(mesh);
+  expect_good_output(input, mesh, report);
+  EXPECT_EQ(report.after.genus, 1);
+  EXPECT_GT(report.rate(), 0.3);
+}
+
+TEST(SimplifySlow, DoubleTorusKeepsGenusTwo) {
+  const HexMesh input = make_octree_like(Shape::double_torus, 16);
+  HexMesh mesh = input;
+  SimplifyOptions options;
+  options.target_rate = 0.3;
+  const SimplifyReport report = simplify(mesh, options);
+  expect_good_output(input, mesh, report);
+  EXPECT_EQ(report.after.genus, 2);
+}
+
+TEST(SimplifySlow, TwoSpheresStayTwoParts) {
+  HexMesh input = make_octree_like(Shape::sphere, 6);
+  append(input, make_octree_like(Shape::sphere, 7), {4, 0, 0});
+  HexMesh mesh = input;
+  const SimplifyReport report = simplify(mesh);
+  expect_good_output(input, mesh, report);
+  EXPECT_EQ(report.after.parts, 2);
+  EXPECT_GT(report.rate(), 0.3);
+}
+
+TEST(SimplifySlow, BlobIsTheSameTwice) {
+  std::array<MeshContent, 2> results;
+  for (MeshContent& result : results) {
+    HexMesh mesh = make_octree_like(Shape::blob, 8, 4);
+    SimplifyOptions options;
+    options.target_rate = 0.5;
+    simplify(mesh, options);
+    result = content(mesh);
+  }
+  EXPECT_TRUE(results[0] == results[1]);
+}
+
+TEST(SimplifySlow, ObserverSeesEveryStateOfTheWay) {
+  const HexMesh input = make_octree_like(Shape::dumbbell, 12);
+  HexMesh mesh = input;
+  SimplifyOptions options;
+  int last = static_cast<int>(extract_base_complex(input).components.size());
+  int step = 0, n = 0;
+  options.observer = [&](const SimplifyProgress& p) {
+    EXPECT_GT(p.step, step);
+    EXPECT_LT(p.components, last);
+    step = p.step;
+    last = p.components;
+    EXPECT_TRUE(++n % 5 != 0 || is_good(mesh));
+  };
+  const SimplifyReport report = simplify(mesh, options);
+  expect_good_output(input, mesh, report);
+  EXPECT_EQ(n, report.sheets.accepted + report.chords.accepted);
+}
+
+TEST(SimplifySlow, ManyRandomSheetsAreMostlyRemoved) {
+  int back_to_one = 0;
+  for (unsigned seed = 9; seed <= 16; ++seed) {
+    HexMesh input = make_grid({6, 6, 6});
+    ASSERT_EQ(insert_random_sheets(input, 6, seed), 6);
+    input.collect_garbage();
+    HexMesh mesh = input;
+    const SimplifyReport report = simplify(mesh);
+    expect_good_output(input, mesh, report);
+    back_to_one += report.after.components == 1;
+  }
+  EXPECT_GE(back_to_one, 4);
+}
+
+}  // namespace
+}  // namespace hexweft

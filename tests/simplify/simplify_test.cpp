@@ -1,0 +1,216 @@
+// The loop on small meshes.
+#include <gmock/gmock.h>
+
+#include "tests/mesh_families.h"
+#include "tests/simplify/loop_checks.h"
+
+namespace hexweft {
+namespace {
+
+HexMesh make_grid_with_random_sheets(int n, unsigned seed) {
+  HexMesh mesh = make_grid({5, 5, 5});
+  EXPECT_EQ(insert_random_sheets(mesh, n, seed), n);
+  mesh.collect_garbage();
+  return mesh;
+}
+
+class RandomSheet : public testing::TestWithParam<unsigned> {};
+INSTANTIATE_TEST_SUITE_P(Simplify, RandomSheet, testing::Range(1u, 11u));
+
+TEST_P(RandomSheet, IsFoundAndRemovedFromAGrid) {
+  const HexMesh input = make_grid_with_random_sheets(1, GetParam());
+  ASSERT_GT(extract_base_complex(input).components.size(), 1u);
+  HexMesh mesh = input;
+  const SimplifyReport report = simplify(mesh);
+  expect_good_output(input, mesh, report);
+  EXPECT_EQ(report.after.components, 1);
+  EXPECT_EQ(report.stopped, StopReason::nothing_left);
+}
+
+TEST(Simplify, SeveralRandomSheetsAreMostlyRemoved) {
+  // Sheets that cross on the edges of the box may hold each other in place.
+  int back_to_one = 0;
+  for (unsigned seed = 1; seed <= 8; ++seed) {
+    const HexMesh input = make_grid_with_random_sheets(3, seed);
+    HexMesh mesh = input;
+    const SimplifyReport report = simplify(mesh);
+    expect_good_output(input, mesh, report);
+    back_to_one += report.after.components == 1;
+  }
+  EXPECT_GE(back_to_one, 4);
+}
+
+TEST(Simplify, PillowIsRemoved) {
+  const HexMesh input = make_pillowed_grid(5);
+  HexMesh mesh = input;
+  const SimplifyReport report = simplify(mesh);
+  expect_good_output(input, mesh, report);
+  EXPECT_EQ(report.before.components, 33);
+  EXPECT_EQ(report.after.components, 1);
+  EXPECT_GE(report.sheets.accepted + report.chords.accepted, 1);
+}
+
+TEST(Simplify, GridStaysOneComponent) {
+  const HexMesh input = make_grid({4, 3, 2});
+  HexMesh mesh = input;
+  const SimplifyReport report = simplify(mesh);
+  expect_good_output(input, mesh, report);
+  EXPECT_EQ(report.after.components, 1);
+  EXPECT_EQ(report.sheets.accepted + report.chords.accepted, 0);
+  EXPECT_EQ(report.rate(), 0);
+  EXPECT_EQ(mesh.n_cells(), 24);
+}
+
+TEST(Simplify, LShapeKeepsItsArms) {
+  const HexMesh input = make_l_shape(2);
+  HexMesh mesh = input;
+  const SimplifyReport report = simplify(mesh);
+  expect_good_output(input, mesh, report);
+  EXPECT_EQ(report.after.components, 3);
+}
+
+TEST(Simplify, TorusKeepsItsHole) {
+  const HexMesh input = make_torus({.n_around = 12});
+  HexMesh mesh = input;
+  const SimplifyReport report = simplify(mesh);
+  expect_good_output(input, mesh, report);
+  EXPECT_EQ(report.after.genus, 1);
+  EXPECT_GE(report.after.components, 3);
+}
+
+TEST(Simplify, TwoPartsStayTwo) {
+  HexMesh input = make_pillowed_grid(3);
+  append(input, make_grid({2, 2, 2}), {5, 0, 0});
+  HexMesh mesh = input;
+  const SimplifyReport report = simplify(mesh);
+  expect_good_output(input, mesh, report);
+  EXPECT_EQ(report.after.parts, 2);
+  EXPECT_EQ(report.before.components, 34);
+  EXPECT_EQ(report.after.components, 2);
+}
+
+TEST(Simplify, StopRequestedBeforehandChangesNothing) {
+  const HexMesh input = make_pillowed_grid(3);
+  HexMesh mesh = input;
+  std::stop_source source;
+  source.request_stop();
+  SimplifyOptions options;
+  options.stop = source.get_token();
+  const SimplifyReport report = simplify(mesh, options);
+  expect_good_output(input, mesh, report);
+  EXPECT_EQ(report.stopped, StopReason::interrupted);
+  EXPECT_EQ(content(mesh), content(input));
+}
+
+HexMesh make_small_sphere() { return make_octree_like(Shape::sphere, 6); }
+
+TEST(Simplify, StopFromTheObserverStopsAfterThatStep) {
+  const HexMesh input = make_small_sphere();
+  HexMesh mesh = input;
+  std::stop_source source;
+  SimplifyOptions options;
+  options.stop = source.get_token();
+  int calls = 0;
+  options.observer = [&](const SimplifyProgress& p) {
+    ++calls;
+    EXPECT_LE(p.components, p.input_components);
+    EXPECT_LE(p.hausdorff_ratio, 0.01);
+    EXPECT_GT(p.hexahedra, 0);
+    if (calls == 2) source.request_stop();
+  };
+  const SimplifyReport report = simplify(mesh, options);
+  expect_good_output(input, mesh, report);
+  EXPECT_EQ(report.stopped, StopReason::interrupted);
+  EXPECT_EQ(calls, 2);
+  EXPECT_EQ(report.sheets.accepted + report.chords.accepted, 2);
+  EXPECT_LT(report.after.components, report.before.components);
+}
+
+TEST(Simplify, StopsAtTheTargetRate) {
+  const HexMesh input = make_small_sphere();
+  HexMesh mesh = input;
+  SimplifyOptions options;
+  options.target_rate = 0.3;
+  const SimplifyReport report = simplify(mesh, options);
+  expect_good_output(input, mesh, report);
+  EXPECT_EQ(report.stopped, StopReason::target_reached);
+  EXPECT_GE(report.rate(), 0.3);
+}
+
+TEST(Simplify, StopsAtTheTargetOfComponents) {
+  const HexMesh input = make_small_sphere();
+  HexMesh mesh = input;
+  SimplifyOptions options;
+  const int n = static_cast<int>(extract_base_complex(input).components.size());
+  options.target_components = n - 1;
+  const SimplifyReport report = simplify(mesh, options);
+  expect_good_output(input, mesh, report);
+  EXPECT_EQ(report.stopped, StopReason::target_reached);
+  EXPECT_EQ(report.sheets.accepted + report.chords.accepted, 1);
+
+  options.target_components = n;  // met by the input
+  mesh = input;
+  EXPECT_EQ(simplify(mesh, options).after.components, n);
+}
+
+TEST(Simplify, StopsWhenTheTimeIsOver) {
+  const HexMesh input = make_small_sphere();
+  HexMesh mesh = input;
+  SimplifyOptions options;
+  options.max_seconds = 1e-9;
+  const SimplifyReport report = simplify(mesh, options);
+  expect_good_output(input, mesh, report);
+  EXPECT_EQ(report.stopped, StopReason::out_of_time);
+  EXPECT_EQ(report.sheets.accepted + report.chords.accepted, 0);
+}
+
+TEST(Simplify, WithoutChordsOnlySheetsGo) {
+  const HexMesh input = make_pillowed_grid(3);
+  HexMesh mesh = input;
+  SimplifyOptions options;
+  options.chords = false;
+  const SimplifyReport report = simplify(mesh, options);
+  expect_good_output(input, mesh, report);
+  EXPECT_EQ(report.chords.accepted, 0);
+  for (int n : report.chords.refused) EXPECT_EQ(n, 0);
+  EXPECT_EQ(report.after.components, 1);
+}
+
+TEST(Simplify, SameInputTwiceGivesTheSameBits) {
+  std::array<MeshContent, 2> results;
+  for (MeshContent& result : results) {
+    HexMesh mesh = make_grid_with_random_sheets(3, 2);
+    simplify(mesh);
+    result = content(mesh);
+  }
+  EXPECT_TRUE(results[0] == results[1]);
+}
+
+TEST(Simplify, DeletedSlotsOfTheInputDoNotMatter) {
+  HexMesh with_gaps = make_pillowed_grid(3);
+  const CellHandle extra = with_gaps.add_cell([&] {
+    CellVertices c;
+    for (VertexHandle& v : c) v = with_gaps.add_vertex({0, 0, 0});
+    return c;
+  }());
+  const CellVertices corners = with_gaps.vertices(extra);
+  with_gaps.delete_cell(extra);
+  for (VertexHandle v : corners) with_gaps.delete_vertex(v);
+  HexMesh plain = make_pillowed_grid(3);
+  simplify(with_gaps);
+  simplify(plain);
+  EXPECT_TRUE(content(with_gaps) == content(plain));
+}
+
+TEST(Simplify, MovedAndScaledInputGivesTheSameStructure) {
+  const HexMesh input = make_grid_with_random_sheets(3, 2);
+  HexMesh mesh = input, moved = input;
+  for (VertexHandle v : moved.vertices()) {
+    moved.set_point(v, 1e-3 * input.point(v) + Eigen::Vector3d(2, -1, 0.5));
+  }
+  const int components = simplify(mesh).after.components;
+  EXPECT_EQ(simplify(moved).after.components, components);
+}
+
+}  // namespace
+}  // namespace hexweft

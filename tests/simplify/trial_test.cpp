@@ -1,0 +1,169 @@
+// Trials: kept whole or undone whole.
+#include "simplify/trial.h"
+
+#include <gmock/gmock.h>
+
+#include "optimize/hausdorff.h"
+#include "tests/mesh_families.h"
+#include "tests/ovm/mesh_dump.h"
+#include "tests/simplify/prediction.h"
+#include "tests/simplify/test_meshes.h"
+
+namespace hexweft {
+namespace {
+
+// A mesh with all that a trial needs.
+struct Bench {
+  explicit Bench(HexMesh m, double limit_rel = 0.01)
+      : mesh(std::move(m)),
+        reference(make_reference_surface(mesh)),
+        distance(mesh, reference),
+        context{mesh, reference, distance, summarize_topology(mesh),
+                limit_rel * reference.bounding_box_diagonal()},
+        bc(extract_base_complex(mesh)) {}
+  HexMesh mesh;
+  ReferenceSurface reference;
+  SurfaceDistance distance;
+  TrialContext context;
+  BaseComplex bc;
+};
+
+struct DistanceState {
+  explicit DistanceState(const SurfaceDistance& d)
+      : forward(d.forward()), backward(d.backward()), by_halfface(d.distance_by_halfface()) {}
+  double forward, backward;
+  std::vector<double> by_halfface;
+  friend bool operator==(const DistanceState&, const DistanceState&) = default;
+};
+
+// Tries plans until one is accepted; each that is refused must leave everything as it was.
+TrialResult first_accepted(Bench& b, const SimplifyOptions& options, std::size_t step,
+                           std::array<int, kRefusals>& refused) {
+  const auto plans = all_plans(b.mesh, b.bc, 5);
+  for (std::size_t i = 0; i < plans.size(); i += step) {
+    const MeshDump mesh(b.mesh);
+    const DistanceState distance(b.distance);
+    TrialResult result = try_collapse(b.context, b.bc, plans[i], options);
+    ++refused[static_cast<int>(result.refusal)];
+    if (result.accepted()) return result;
+    EXPECT_TRUE(MeshDump(b.mesh) == mesh);
+    EXPECT_TRUE(DistanceState(b.distance) == distance);
+    EXPECT_TRUE(result.region.empty());
+    EXPECT_TRUE(result.base_complex.components.empty());
+  }
+  TrialResult none;
+  none.refusal = Refusal::structure;
+  return none;
+}
+
+TEST(Trial, AcceptedOneIsValidSimplerAndNear) {
+  Bench b(make_octree_like(Shape::sphere, 7));
+  const double limit = b.context.distance_limit;
+  std::array<int, kRefusals> refused = {};
+  for (int step = 0; step < 4; ++step) {
+    const std::size_t before = b.bc.components.size();
+    TrialResult result = first_accepted(b, {}, 1, refused);
+    ASSERT_TRUE(result.accepted());
+    EXPECT_LT(result.base_complex.components.size(), before);
+    EXPECT_EQ(counts(extract_base_complex(b.mesh)), counts(result.base_complex));
+    EXPECT_TRUE(is_good(b.mesh));
+    EXPECT_LE(b.distance.distance(), limit);
+    for (CellHandle c : result.region) EXPECT_TRUE(b.mesh.is_live(c));
+    b.bc = std::move(result.base_complex);
+  }
+  EXPECT_LE(hausdorff_distance(b.mesh, b.reference).ratio(), 0.012);
+  const TopologySummary shape = summarize_topology(b.mesh);
+  EXPECT_EQ(shape.n_parts, 1);
+  EXPECT_EQ(shape.genus, 0);
+}
+
+TEST(Trial, ArmOfAnLIsTooFarFromTheInput) {
+  Bench b(make_l_shape(2));
+  int legal = 0;
+  for (const Sheet& s : extract_sheets(b.bc)) {
+    const CollapsePlan plan = plan_sheet_collapse(b.mesh, b.bc, s);
+    if (check_plan(b.mesh, b.bc.graph, plan) != Refusal::none) continue;
+    ++legal;
+    const MeshDump mesh(b.mesh);
+    const DistanceState distance(b.distance);
+    const TrialResult result = try_collapse(b.context, b.bc, plan, {});
+    EXPECT_THAT(result.refusal,
+                testing::AnyOf(Refusal::hausdorff, Refusal::inverted, Refusal::quality));
+    EXPECT_TRUE(MeshDump(b.mesh) == mesh);
+    EXPECT_TRUE(DistanceState(b.distance) == distance);
+  }
+  EXPECT_GT(legal, 0);
+}
+
+TEST(Trial, WithinAWideLimitAnArmGoes) {
+  // The two components that stay make one straight grid.
+  Bench b(make_l_shape(2), 1.0);
+  SimplifyOptions options;
+  options.hausdorff_limit_rel = 1;
+  std::array<int, kRefusals> refused = {};
+  const TrialResult result = first_accepted(b, options, 1, refused);
+  ASSERT_TRUE(result.accepted());
+  EXPECT_EQ(result.base_complex.components.size(), 1u);
+  EXPECT_TRUE(is_good(b.mesh));
+}
+
+TEST(Trial, ClosingACavityIsRefused) {
+  // The middle layer holds the cavity; without it there would be none.
+  Bench b(make_hollow_box(), 1.0);
+  SimplifyOptions options;
+  options.hausdorff_limit_rel = 1;
+  int n = 0;
+  for (const Sheet& s : extract_sheets(b.bc)) {
+    const CollapsePlan plan = plan_sheet_collapse(b.mesh, b.bc, s);
+    if (plan.removed.size() != 8) continue;
+    ++n;
+    const MeshDump dump(b.mesh);
+    const TrialResult result = try_collapse(b.context, b.bc, plan, options);
+    EXPECT_FALSE(result.accepted()) << name(result.refusal);
+    EXPECT_TRUE(MeshDump(b.mesh) == dump);
+  }
+  EXPECT_EQ(n, 3);
+}
+
+TEST(Trial, QualityFloorIsKept) {
+  SimplifyOptions options;
+  options.min_scaled_jacobian = options.mean_scaled_jacobian = 0.999;
+  Bench b(make_pillowed_grid(5));
+  const auto sj_before = min_scaled_jacobian(b.mesh);
+  for (const Sheet& s : extract_sheets(b.bc)) {
+    const TrialResult result =
+        try_collapse(b.context, b.bc, plan_sheet_collapse(b.mesh, b.bc, s), options);
+    EXPECT_GE(min_scaled_jacobian(b.mesh), sj_before * (1 - 1e-9));
+    if (result.accepted()) break;
+  }
+}
+
+TEST(Trial, PillowIsTakenOutOfItsGridAgain) {
+  Bench b(make_pillowed_grid(5));
+  for (const Sheet& s : extract_sheets(b.bc)) {
+    if (s.kind != SheetKind::closed) continue;
+    const TrialResult result =
+        try_collapse(b.context, b.bc, plan_sheet_collapse(b.mesh, b.bc, s), {});
+    ASSERT_TRUE(result.accepted()) << name(result.refusal);
+    EXPECT_EQ(result.base_complex.components.size(), 1u);
+    EXPECT_EQ(b.mesh.n_cells(), 125);
+    EXPECT_TRUE(is_good(b.mesh));
+    return;
+  }
+  FAIL() << "no pillow";
+}
+
+TEST(CellsAround, RingsOfAGrid) {
+  const HexMesh mesh = make_grid({9, 9, 9});
+  const std::array middle = {VertexHandle(4 + 10 * (4 + 10 * 4))};
+  for (int rings = 1; rings <= 4; ++rings) {
+    const auto cells = cells_around(mesh, middle, rings);
+    EXPECT_EQ(cells.size(), std::size_t(8 * rings * rings * rings));
+    EXPECT_TRUE(std::is_sorted(cells.begin(), cells.end()));
+  }
+  EXPECT_EQ(cells_around(mesh, middle, 100).size(), 729u);
+  EXPECT_TRUE(cells_around(mesh, {}, 3).empty());
+}
+
+}  // namespace
+}  // namespace hexweft
