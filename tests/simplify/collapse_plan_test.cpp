@@ -151,6 +151,30 @@ TEST(CollapsePlan, PillowsPredictionIsTheGridItself) {
   }
 }
 
+// Collapses the sheets of width 1 of one kind; how many became as predicted.
+int collapse_sheets(HexMesh mesh, SheetKind kind) {
+  const BaseComplex bc = extract_base_complex(mesh);
+  EXPECT_EQ(bc.irregular, 0);
+  int n = 0;
+  for (const Sheet& s : extract_sheets(bc)) {
+    if (s.kind != kind || s.width != 1) continue;
+    PlanTally tally;
+    try_plan(mesh, bc, plan_sheet_collapse(mesh, bc, s), tally, true);
+    n += tally.as_predicted;
+  }
+  return n;
+}
+
+TEST(CollapsePlan, SheetThatTouchesItselfHasThePredictedEdges) {
+  EXPECT_EQ(collapse_sheets(make_touching_ribbon(true, 1), SheetKind::tangent), 1);
+  EXPECT_EQ(collapse_sheets(make_touching_ribbon(true, 2), SheetKind::tangent), 1);
+}
+
+TEST(CollapsePlan, SheetThatCrossesItselfHasThePredictedEdges) {
+  EXPECT_EQ(collapse_sheets(make_crossing_ribbon(true, 1), SheetKind::intersecting), 1);
+  EXPECT_EQ(collapse_sheets(make_crossing_ribbon(true, 2), SheetKind::intersecting), 1);
+}
+
 TEST(CollapsePlan, DefaultTargetsAreOnTheBoundaryWhereAGroupTouchesIt) {
   const HexMesh mesh = make_o_grid();
   const BaseComplex bc = extract_base_complex(mesh);

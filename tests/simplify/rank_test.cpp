@@ -112,19 +112,6 @@ TEST(RankSheets, TiesGoByIndex) {
   EXPECT_THAT(order, testing::ElementsAre(0, 1, 2));
 }
 
-TEST(RankSheets, QueuesAreSorted) {
-  const HexMesh mesh = make_octree_like(Shape::blob, 8, 2);
-  const CandidateQueues q = make_queues(mesh, extract_base_complex(mesh), {});
-  const auto sorted = [](const Candidate& a, const Candidate& b) { return a.energy < b.energy; };
-  EXPECT_TRUE(std::is_sorted(q.sheet_queue.begin(), q.sheet_queue.end(), sorted));
-  EXPECT_TRUE(std::is_sorted(q.chord_queue.begin(), q.chord_queue.end(), sorted));
-  EXPECT_EQ(q.sheet_queue.size(), q.sheets.size());
-  EXPECT_GT(q.chord_queue.size(), 0u);
-  SimplifyOptions no_chords;
-  no_chords.chords = false;
-  EXPECT_TRUE(make_queues(mesh, extract_base_complex(mesh), no_chords).chord_queue.empty());
-}
-
 // Three cubes in a row, the first drawn out to ten times its length.
 HexMesh make_row_with_a_long_cell() {
   HexMesh mesh = make_grid({3, 1, 1});

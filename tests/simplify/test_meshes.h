@@ -37,6 +37,21 @@ inline HexMesh extrude(const std::vector<std::array<double, 2>>& points,
   return mesh;
 }
 
+/// Points and quadrilaterals of a plane mesh.
+struct PlaneMesh {
+  std::vector<std::array<double, 2>> points;
+  std::vector<std::array<int, 4>> quads;
+
+  /// Lays a row of quadrilaterals along a chain, to its right; `outer` are its other points.
+  void add_row(const std::vector<int>& chain, const std::vector<std::array<double, 2>>& outer) {
+    const int first = static_cast<int>(points.size());
+    points.insert(points.end(), outer.begin(), outer.end());
+    for (int i = 0; i + 1 < static_cast<int>(chain.size()); ++i) {
+      quads.push_back({first + i, first + i + 1, chain[i + 1], chain[i]});
+    }
+  }
+};
+
 /// A ribbon that runs round a hole and crosses itself in its cell 0, two-sided:
 ///
 ///      o-------o
@@ -45,28 +60,64 @@ inline HexMesh extrude(const std::vector<std::array<double, 2>>& points,
 ///    o-o-o---o |
 ///    o-o-o-----o
 ///      o-o
-inline HexMesh make_crossing_ribbon() {
-  const std::vector<std::array<double, 2>> points = {{0, 0},  {1, 0},  {1, 1},  {0, 1}, {-1, 0},
-                                                     {-1, 1}, {0, -1}, {1, -1}, {3, 0}, {2, 1},
-                                                     {3, 3},  {2, 2},  {0, 3},  {1, 2}};
-  return extrude(points, {{0, 1, 2, 3},
-                          {4, 0, 3, 5},
-                          {6, 7, 1, 0},
-                          {1, 8, 9, 2},
-                          {8, 10, 11, 9},
-                          {10, 12, 13, 11},
-                          {12, 3, 2, 13}});
+/// \param rimmed  with cells outside along it, so that something is left without the ribbon
+inline HexMesh make_crossing_ribbon(bool rimmed = false, int n_layers = 1) {
+  PlaneMesh m = {{{0, 0},
+                  {1, 0},
+                  {1, 1},
+                  {0, 1},
+                  {-1, 0},
+                  {-1, 1},
+                  {0, -1},
+                  {1, -1},
+                  {3, 0},
+                  {2, 1},
+                  {3, 3},
+                  {2, 2},
+                  {0, 3},
+                  {1, 2}},
+                 {{0, 1, 2, 3},
+                  {4, 0, 3, 5},
+                  {6, 7, 1, 0},
+                  {1, 8, 9, 2},
+                  {8, 10, 11, 9},
+                  {10, 12, 13, 11},
+                  {12, 3, 2, 13}}};
+  if (rimmed) {
+    m.points.push_back({-1, -1});
+    m.quads.push_back({14, 6, 0, 4});
+    m.add_row({7, 1, 8, 10, 12, 3, 5},
+              {{2, -1}, {2, -0.5}, {4, -1}, {4, 4}, {-1, 4}, {-0.5, 2}, {-1, 2}});
+  }
+  return extrude(m.points, m.quads, n_layers);
 }
 
 /// A ribbon that turns back round a hole and lies along itself: cells 0 and 5 share a side that is
 /// parallel to the ribbon.
-inline HexMesh make_touching_ribbon() {
-  const std::vector<std::array<double, 2>> points = {{0, 0}, {1, -0.5}, {2, -1}, {4, 1},
-                                                     {2, 3}, {1, 2.5},  {0, 2},  {0, 1},
-                                                     {1, 1}, {2, 0.5},  {3, 1},  {2, 1.5}};
-  return extrude(
-      points,
-      {{0, 1, 8, 7}, {1, 2, 9, 8}, {2, 3, 10, 9}, {3, 4, 11, 10}, {4, 5, 8, 11}, {5, 6, 7, 8}});
+/// \param rimmed  with cells outside along it
+inline HexMesh make_touching_ribbon(bool rimmed = false, int n_layers = 1) {
+  PlaneMesh m = {
+      {{0, 0},
+       {1, -0.5},
+       {2, -1},
+       {4, 1},
+       {2, 3},
+       {1, 2.5},
+       {0, 2},
+       {0, 1},
+       {1, 1},
+       {2, 0.5},
+       {3, 1},
+       {2, 1.5}},
+      {{0, 1, 8, 7}, {1, 2, 9, 8}, {2, 3, 10, 9}, {3, 4, 11, 10}, {4, 5, 8, 11}, {5, 6, 7, 8}}};
+  if (rimmed) {
+    // Longer than the ribbon, so that its ends have corners of three cells: these keep the ribbon
+    // and the rim apart.
+    m.points.insert(m.points.end(), {{-1, 0}, {-1, 2}});
+    m.add_row({12, 0, 1, 2, 3, 4, 5, 6, 13},
+              {{-1, -1}, {0, -1}, {1, -1.5}, {2, -2}, {6, 1}, {2, 4}, {1, 3.5}, {0, 3}, {-1, 3}});
+  }
+  return extrude(m.points, m.quads, n_layers);
 }
 
 /// Three cells round a hole with three sides. Cell 1 joins the vertices 0 and 1 of one of its

@@ -1,0 +1,78 @@
+// Queues of candidates, and the memory of failures.
+#include "simplify/candidates.h"
+
+#include <algorithm>
+#include <set>
+
+#include <gmock/gmock.h>
+
+#include "tests/simplify/prediction.h"
+#include "tests/simplify/test_meshes.h"
+
+namespace hexweft {
+namespace {
+
+bool has_less_energy(const Candidate& a, const Candidate& b) { return a.energy < b.energy; }
+
+TEST(Candidates, QueuesAreInOrderOfEnergy) {
+  const HexMesh mesh = make_octree_like(Shape::blob, 8, 2);
+  const CandidateQueues q = make_queues(mesh, extract_base_complex(mesh), {});
+  EXPECT_TRUE(std::is_sorted(q.sheet_queue.begin(), q.sheet_queue.end(), has_less_energy));
+  EXPECT_TRUE(std::is_sorted(q.chord_queue.begin(), q.chord_queue.end(), has_less_energy));
+  EXPECT_EQ(q.sheet_queue.size(), q.sheets.size());
+  EXPECT_GT(q.chord_queue.size(), 0u);
+}
+
+TEST(Candidates, ChordsAreAnOption) {
+  const HexMesh mesh = make_pillowed_grid(3);
+  SimplifyOptions options;
+  options.chords = false;
+  const CandidateQueues q = make_queues(mesh, extract_base_complex(mesh), options);
+  EXPECT_TRUE(q.chord_queue.empty());
+  EXPECT_EQ(q.sheet_queue.size(), 10u);
+}
+
+TEST(Candidates, ChordsThatRemoveNoSingularEdgeAreLeftOut) {
+  const HexMesh mesh = make_pillowed_grid(5);
+  const BaseComplex bc = extract_base_complex(mesh);
+  const CandidateQueues q = make_queues(mesh, bc, {});
+  ASSERT_EQ(q.chords.size(), q.chord_terms.size());
+  std::set<int> queued;
+  for (const Candidate& c : q.chord_queue) queued.insert(c.index);
+  for (int i = 0; i < static_cast<int>(q.chords.size()); ++i) {
+    const ChordTerms& t = q.chord_terms[i];
+    const bool passes = can_plan(bc, q.chords[i], q.sheets) == Refusal::none &&
+                        t.singular_groups >= 2 &&
+                        t.deviation <= SimplifyOptions().max_chord_deviation;
+    EXPECT_EQ(queued.count(i) == 1, passes);
+  }
+}
+
+TEST(FailureMemory, WaitsLongerAfterEachFailure) {
+  FailureMemory memory;
+  EXPECT_FALSE(memory.should_wait(7, 0, true));
+  memory.failed(7, 0);
+  EXPECT_TRUE(memory.should_wait(7, 0, false));
+  EXPECT_TRUE(memory.should_wait(7, 1, true));
+  EXPECT_FALSE(memory.should_wait(7, 1, false));
+  EXPECT_FALSE(memory.should_wait(7, 2, true));
+  memory.failed(7, 2);
+  EXPECT_TRUE(memory.should_wait(7, 5, true));
+  EXPECT_FALSE(memory.should_wait(7, 6, true));
+  EXPECT_FALSE(memory.should_wait(8, 2, true));
+  memory.forget_all();
+  EXPECT_FALSE(memory.should_wait(7, 2, false));
+}
+
+TEST(FailureMemory, KnowsPlansApart) {
+  // The two diagonals of a chord remove the same cells.
+  const HexMesh mesh = make_pillowed_grid(3);
+  const BaseComplex bc = extract_base_complex(mesh);
+  const auto plans = all_plans(mesh, bc);
+  std::set<std::size_t> keys;
+  for (const CollapsePlan& p : plans) keys.insert(FailureMemory::key(p));
+  EXPECT_EQ(keys.size(), plans.size());
+}
+
+}  // namespace
+}  // namespace hexweft
