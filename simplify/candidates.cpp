@@ -37,6 +37,9 @@ CandidateQueues make_queues(const HexMesh& mesh, const BaseComplex& bc,
   return q;
 }
 
+// A sheet that failed so often, each time in new surroundings, is let go until its own cells change.
+constexpr int kMostTries = 4;
+
 std::size_t FailureMemory::key(const CollapsePlan& plan) {
   // FNV-1a over the cells, and the groups: the two diagonals of a chord remove the same cells.
   std::size_t h = 1469598103934665603ull;
@@ -51,6 +54,7 @@ bool FailureMemory::should_wait(std::size_t key, int step, bool patient) const {
   const auto it = failures_.find(key);
   if (it == failures_.end()) return false;
   const Failure& f = it->second;
+  if (f.times >= kMostTries) return true;
   return step - f.step < (patient ? 1 << std::min(f.times, 5) : 1);
 }
 

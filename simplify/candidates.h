@@ -29,7 +29,8 @@ CandidateQueues make_queues(const HexMesh& mesh, const BaseComplex& bc,
                             const SimplifyOptions& options);
 
 /// Remembers which collapses failed. A candidate is known by the cells it would remove; after a
-/// failure it waits for a growing number of accepted steps before it is tried again.
+/// failure it waits for a growing number of accepted steps before it is tried again, and after
+/// several until its own cells are others.
 class FailureMemory {
  public:
   static std::size_t key(const CollapsePlan& plan);

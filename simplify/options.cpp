@@ -25,6 +25,7 @@ void validate(const SimplifyOptions& o) {
          o.mean_scaled_jacobian, "[0, 1)");
   expect(o.target_hexahedra_rel > 0, "target_hexahedra_rel", o.target_hexahedra_rel, "> 0");
   expect(o.rings > 0, "rings", o.rings, "> 0");
+  expect(o.smoothing_trials >= 0, "smoothing_trials", o.smoothing_trials, ">= 0");
   expect(o.give_up_factor >= 1, "give_up_factor", o.give_up_factor, ">= 1");
   expect(o.max_chord_deviation > 0, "max_chord_deviation", o.max_chord_deviation, "> 0");
   if (o.target_rate) {

@@ -184,6 +184,7 @@ class Run {
     if (!within_limit()) mesh_ = verified_;
     if (options_.smooth && report_.stopped != StopReason::interrupted) {
       const SmoothingOptions smoothing = {.hausdorff_limit_rel = options_.hausdorff_limit_rel,
+                                          .local_trials = options_.smoothing_trials,
                                           .parametrization = options_.parametrization};
       report_.hausdorff_ratio = smooth(mesh_, reference_, smoothing).hausdorff_rel;
     } else {
