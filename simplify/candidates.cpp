@@ -37,7 +37,8 @@ CandidateQueues make_queues(const HexMesh& mesh, const BaseComplex& bc,
   return q;
 }
 
-// A sheet that failed so often, each time in new surroundings, is let go until its own cells change.
+// A sheet that failed so often, each time in new surroundings, is let go until its own cells
+// change.
 constexpr int kMostTries = 4;
 
 std::size_t FailureMemory::key(const CollapsePlan& plan) {

@@ -26,17 +26,18 @@ struct SimplifyOptions {
   bool chords = true;  ///< collapse chords between sheets
 
   double hausdorff_limit_rel = 0.01;  ///< (0, 1], of the input's bounding-box diagonal, both ways
-  double min_scaled_jacobian = 0.1;  ///< [0, 1); a step may not leave its region below both this
+  double min_scaled_jacobian = 0.1;   ///< [0, 1); a step may not leave its region below both this
                                       ///< and what it found there
   double mean_scaled_jacobian = 0.7;  ///< [0, 1); the same for the mean over the region
   double target_hexahedra_rel = 1.0;  ///< > 0, of the input's count; below it sheets are refined
   int rings = 4;                      ///< > 0, rings of cells round a collapse that move, per layer
   bool smooth = true;                 ///< global smoothing at the end
   int smoothing_trials = 50;  ///< >= 0, passes over the neighbourhoods of the worst cells then
-  double give_up_factor = 2;          ///< >= 1; half relaxed and so many limits away, a trial ends
-  double max_chord_deviation = 0.9;   ///< > 0, D(c) / 3k of a chord that is tried
+  double give_up_factor = 2;  ///< >= 1; half relaxed and so many limits away, a trial ends
+  double max_chord_deviation = 0.9;  ///< > 0, D(c) / 3k of a chord that is tried
   ValenceLimits valence = {};
-  ParametrizationOptions parametrization = {.max_iterations = 4, .surface = {.treatment = SurfaceTreatment::fit}};
+  ParametrizationOptions parametrization = {.max_iterations = 4,
+                                            .surface = {.treatment = SurfaceTreatment::fit}};
 
   std::optional<double> target_rate = {};     ///< [0, 1], stop at R = 1 - BC / BC_in
   std::optional<int> target_components = {};  ///< > 0, stop at so many

@@ -79,16 +79,12 @@ bool try_refine(TrialContext& context, const DualSheet& sheet, const SimplifyOpt
   // A split changes no shape by much: a narrow region and few iterations do.
   const std::vector<CellHandle> region = cells_around(mesh, added, (options.rings + 1) / 2);
   ParametrizationOptions parametrization = options.parametrization;
-  parametrization.max_iterations = std::min(2, parametrization.max_iterations);
+  parametrization.max_iterations = 1;
   parametrization.min_scaled_jacobian = floor * (1 - 1e-9);
   if (!parametrize(mesh, region, context.reference, parametrization).valid()) return false;
   std::vector<CellHandle> touched = region;
   touched.insert(touched.end(), split.removed.begin(), split.removed.end());
-  if (context.distance.after_change(mesh, touched, context.distance_limit) >
-      context.distance_limit) {
-    context.distance.rollback();
-    return false;
-  }
+  if (!stays_on_surface(context, touched)) return false;
   context.distance.commit();
   trial.commit();
   return true;

@@ -35,8 +35,12 @@ void check_input(const HexMesh& mesh) {
 
 // The loop samples the surface less densely than the last check: it keeps this share of the limit.
 constexpr double kLoopShare = 0.95;
-// Below this share of the wanted count of cells a sheet is split.
-constexpr double kRefineBelow = 0.9;
+// Below these shares of the wanted count of cells a sheet is split: in the loop, where every cell
+// costs time and a later collapse takes many away again, and at the end.
+constexpr double kRefineBelow = 0.75;
+constexpr double kFillUpTo = 0.8;
+// Up to this share sheets are split when nothing else goes on.
+constexpr double kMostCells = 1.1;
 // A verified copy of the mesh is kept whenever the components have fallen by this factor.
 constexpr double kVerifyEvery = 0.5;
 
@@ -49,8 +53,12 @@ class Run {
         start_(Clock::now()),
         reference_(make_reference_surface(mesh)),
         distance_(mesh, reference_),
-        context_{mesh, reference_, distance_, summarize_topology(mesh),
-                 kLoopShare * options.hausdorff_limit_rel * reference_.bounding_box_diagonal()},
+        context_{mesh,
+                 reference_,
+                 distance_,
+                 summarize_topology(mesh),
+                 kLoopShare * options.hausdorff_limit_rel * reference_.bounding_box_diagonal(),
+                 options.hausdorff_limit_rel * reference_.bounding_box_diagonal()},
         bc_(extract_base_complex(mesh)) {
     if (bc_.irregular > 0) {
       throw InputError(fmt::format("{} regions of the base complex are no cuboids", bc_.irregular));
@@ -65,10 +73,10 @@ class Run {
     const double long_enough = RefineOptions().min_length_rel;
     while (!should_stop()) {
       if (is_short_of_cells(kRefineBelow)) refine(long_enough);
-      if (!collapse_one(true) && !refine(long_enough) && !collapse_one(false)) break;
+      if (!collapse_one(true) && !refine(long_enough, kMostCells) && !collapse_one(false)) break;
     }
     if (report_.stopped != StopReason::interrupted) {
-      while (is_short_of_cells(kRefineBelow) && refine(0)) {
+      while (is_short_of_cells(kFillUpTo) && refine(0)) {
       }
     }
     finish();
@@ -97,18 +105,7 @@ class Run {
   // Tries candidates in order until one is accepted. A patient round leaves out what failed lately.
   bool collapse_one(bool patient) {
     const CandidateQueues q = make_queues(mesh_, bc_, options_);
-    const bool chord_first = chords_due_ > 0;
-    if (chord_first && collapse_chord(q, patient)) {
-      --chords_due_;
-      return true;
-    }
-    if (collapse_sheet(q, patient)) {
-      const std::size_t ratio =
-          q.chord_queue.size() / std::max<std::size_t>(1, q.sheet_queue.size());
-      chords_due_ = static_cast<int>(std::min<std::size_t>(3, ratio));
-      return true;
-    }
-    return !chord_first && collapse_chord(q, patient);
+    return collapse_sheet(q, patient) || collapse_chord(q, patient);
   }
 
   bool collapse_sheet(const CandidateQueues& q, bool patient) {
@@ -156,10 +153,7 @@ class Run {
     }
   }
 
-  bool within_limit() const {
-    return is_within(mesh_, reference_,
-                     options_.hausdorff_limit_rel * reference_.bounding_box_diagonal());
-  }
+  bool within_limit() const { return is_within(mesh_, reference_, context_.final_limit); }
 
   // Keeps a copy that is within the limit at full sampling; where this one is not, keeps more
   // distance.
@@ -200,11 +194,12 @@ class Run {
   }
 
   // Splits one sheet if there is room for it.
-  bool refine(double min_length_rel) {
+  bool refine(double min_length_rel, double most_cells_rel = 1) {
     RefineOptions refine;
     refine.min_length_rel = min_length_rel;
     const double target = options_.target_hexahedra_rel * report_.before.hexahedra;
-    refine.max_cells = static_cast<int>(1.5 * (target - mesh_.n_cells()));
+    refine.max_cells = static_cast<int>(
+        std::max(1.5 * (target - mesh_.n_cells()), most_cells_rel * target - mesh_.n_cells()));
     while (const auto sheet = choose_sheet_to_refine(mesh_, distance_, refine, not_refinable_)) {
       if (try_refine(context_, *sheet, options_)) {
         ++report_.refined;
@@ -232,7 +227,6 @@ class Run {
   HexMesh verified_;  // the last mesh within the limit at full sampling
   int verified_components_ = 0;
   int step_ = 0;
-  int chords_due_ = 0;  // chords to collapse before the next sheet
 };
 
 }  // namespace

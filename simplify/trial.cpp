@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "optimize/hausdorff.h"
 #include "ovm/quality.h"
 #include "ovm/topology_check.h"
 #include "ovm/transaction.h"
@@ -52,7 +53,8 @@ bool same_shape(const TopologySummary& a, const TopologySummary& b) {
          a.genus == b.genus;
 }
 
-// What half a parametrization must have reached of the floors for the other half to be worth its time.
+// What half a parametrization must have reached of the floors for the other half to be worth its
+// time.
 constexpr double kHalfway = 0.3;
 constexpr double kHalfwayMean = 0.05;
 
@@ -66,7 +68,7 @@ Refusal relax_region(TrialContext& context, std::span<const CellHandle> region,
   touched.insert(touched.end(), plan.removed.begin(), plan.removed.end());
   const double least = std::max(std::min(options.min_scaled_jacobian, old.least), 1e-3);
   const double mean = std::min(options.mean_scaled_jacobian, old.mean);
-  const int first = std::min(2, p.max_iterations);
+  const int first = std::min(1, p.max_iterations);
   for (const bool last : {false, true}) {
     p.max_iterations = last ? std::max(1, options.parametrization.max_iterations - first) : first;
     p.min_scaled_jacobian = last ? least : kHalfway * least;
@@ -76,15 +78,26 @@ Refusal relax_region(TrialContext& context, std::span<const CellHandle> region,
     const ParametrizationReport report = parametrize(context.mesh, region, context.reference, p);
     if (!report.valid()) return refusal_of(report.failure);
     if (report.mean_scaled_jacobian < (last ? 1 : 1 - kHalfwayMean) * mean) return Refusal::quality;
-    const double limit = (last ? 1 : options.give_up_factor) * context.distance_limit;
+    if (last) return stays_on_surface(context, touched) ? Refusal::none : Refusal::hausdorff;
+    const double limit = options.give_up_factor * context.distance_limit;
     const bool far = context.distance.after_change(context.mesh, touched, limit) > limit;
-    if (far || !last) context.distance.rollback();
+    context.distance.rollback();
     if (far) return Refusal::hausdorff;
   }
   return Refusal::none;
 }
 
 }  // namespace
+
+bool stays_on_surface(TrialContext& context, std::span<const CellHandle> touched) {
+  constexpr double kClose = 0.8;  // of the limit; below it the loop's samples have never missed it
+  const double limit = context.distance_limit;
+  const double d = context.distance.after_change(context.mesh, touched, limit);
+  if (d <= kClose * limit) return true;
+  if (d <= limit && is_within(context.mesh, context.reference, context.final_limit)) return true;
+  context.distance.rollback();
+  return false;
+}
 
 std::vector<CellHandle> cells_around(const HexMesh& mesh, std::span<const VertexHandle> vertices,
                                      int rings) {
@@ -133,8 +146,15 @@ TrialResult try_collapse(TrialContext& context, const BaseComplex& bc, const Col
     return result;
   }
 
-  std::vector<CellHandle> region = cells_around(mesh, left, options.rings * plan.width);
-  result.refusal = relax_region(context, region, plan, old, options);
+  // A region that reaches a place already near the limit may fail there; a smaller one stays away.
+  std::vector<CellHandle> region;
+  for (const int rings : {options.rings, (options.rings + 1) / 2}) {
+    Transaction geometry(mesh);
+    region = cells_around(mesh, left, rings * plan.width);
+    result.refusal = relax_region(context, region, plan, old, options);
+    if (result.accepted()) geometry.commit();
+    if (result.refusal != Refusal::hausdorff) break;
+  }
   if (!result.accepted()) return result;
   // The Euler number is kept; a hole that moved from one part to another shows only here.
   if (!same_shape(context.shape, summarize_topology(mesh))) {

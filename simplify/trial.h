@@ -18,7 +18,8 @@ struct TrialContext {
   const ReferenceSurface& reference;
   SurfaceDistance& distance;
   TopologySummary shape;  ///< of the input: genus and parts that every state must have
-  double distance_limit;  ///< model units
+  double distance_limit;  ///< model units, at the sampling of `distance`
+  double final_limit;     ///< model units, at full sampling
 };
 
 struct TrialResult {
@@ -32,6 +33,10 @@ struct TrialResult {
 /// plan, the topology, the new base complex, the parametrization, the distance.
 TrialResult try_collapse(TrialContext& context, const BaseComplex& bc, const CollapsePlan& plan,
                          const SimplifyOptions& options);
+
+/// Brings the distance up to the mesh after a change of these cells, dead or alive, and checks it
+/// against the limits; where it is close, at full sampling. Over one, the distance is rolled back.
+bool stays_on_surface(TrialContext& context, std::span<const CellHandle> touched);
 
 /// The live cells within `rings` of the vertices; ring 1 touches them. Ascending.
 std::vector<CellHandle> cells_around(const HexMesh& mesh, std::span<const VertexHandle> vertices,
