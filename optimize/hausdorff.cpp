@@ -15,7 +15,10 @@ namespace {
 /// Looks for the sample farthest from a surface.
 class FarthestSample {
  public:
-  FarthestSample(const ReferenceSurface& to, double at_least) : to_(to), farthest_(at_least) {}
+  FarthestSample(const ReferenceSurface& to, const HausdorffOptions& options)
+      : to_(to), farthest_(options.at_least), enough_(options.enough) {}
+
+  bool done() const { return farthest_ > enough_; }
 
   double look_at(const Eigen::Vector3d& p) {
     const SurfacePoint s = to_.closest(p, near_);
@@ -33,7 +36,7 @@ class FarthestSample {
         std::sqrt(std::max({(a - centroid).squaredNorm(), (b - centroid).squaredNorm(),
                             (c - centroid).squaredNorm()}));
     const double d = look_at(centroid);
-    if (levels == 0 || d + reach <= farthest_) return;
+    if (levels == 0 || d + reach <= farthest_ || done()) return;
     const Eigen::Vector3d ab = (a + b) / 2, bc = (b + c) / 2, ca = (c + a) / 2;
     for (const Eigen::Vector3d* p : {&a, &b, &c, &ab, &bc, &ca}) look_at(*p);
     look_at(ab, bc, ca, levels - 1);
@@ -46,7 +49,7 @@ class FarthestSample {
 
  private:
   const ReferenceSurface& to_;
-  double farthest_;
+  double farthest_, enough_;
   int near_ = -1;  // where the last sample was closest
 };
 
@@ -77,7 +80,10 @@ bool is_within(const HexMesh& mesh, const ReferenceSurface& reference, double li
                const HausdorffOptions& options) {
   HausdorffOptions o = options;
   o.at_least = 0.999 * limit;
-  return hausdorff_distance(mesh, reference, o).distance() <= limit;
+  o.enough = limit;
+  const ReferenceSurface surface = make_reference_surface(mesh);
+  return one_sided_distance(surface, reference, o) <= limit &&
+         one_sided_distance(reference, surface, o) <= limit;
 }
 
 double one_sided_distance(const ReferenceSurface& from, const ReferenceSurface& to,
@@ -97,8 +103,9 @@ double one_sided_distance(const ReferenceSurface& from, const ReferenceSurface& 
           ? options.points_per_surface
           : static_cast<double>(options.points_per_triangle) *
                 static_cast<double>(std::max(triangles.size(), to.triangles().size()));
-  FarthestSample farthest(to, options.at_least);
+  FarthestSample farthest(to, options);
   for (const auto& t : triangles) {
+    if (farthest.done()) break;
     const double share = area > 0 ? wanted * area_of(t) / area : 0;
     farthest.look_at(points.col(t[0]), points.col(t[1]), points.col(t[2]),
                      levels_for(std::max<double>(options.points_per_triangle, share)));

@@ -5,6 +5,8 @@
 ///     if (d.ratio() > 0.01) ...
 #pragma once
 
+#include <limits>
+
 #include "optimize/reference_surface.h"
 
 namespace hexweft {
@@ -18,6 +20,7 @@ struct HausdorffOptions {
   int points_per_surface =
       0;  ///< ≥ 0, spread by area; 0: points_per_triangle × the larger triangle count
   double at_least = 0;  ///< ≥ 0, model units: below it distances are not told apart, which saves time
+  double enough = std::numeric_limits<double>::infinity();  ///< model units: beyond it the search ends
 };
 
 /// Distances in model units.

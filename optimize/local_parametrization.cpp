@@ -88,7 +88,8 @@ RelaxationReport Parametrization::relax_once(const Energy& energy,
 
 /// Follows the regularized energy with ε tied to the worst corner, until no corner is flat.
 bool Parametrization::untangle() {
-  constexpr int kIterations = 20;
+  constexpr int kIterations = 8;     // short rounds: the last one ends soon after nothing is flat
+  constexpr int kRoundsPerGoal = 3;  // closest points cost as much as a round
   std::vector<TargetCuboid> targets = target_cuboids(region_, options_.target);
   double least = least_determinant(targets);
   if (least > kFlat) return true;
@@ -99,11 +100,13 @@ bool Parametrization::untangle() {
     energy.epsilon = FoldoverFree::epsilon_for(least - kFlat);
     relax_once(energy, targets, kIterations);
     targets = target_cuboids(region_, options_.target);
-    goals_ = surface_goals(region_, reference_, options_.surface);
+    if ((round + 1) % kRoundsPerGoal == 0) {
+      goals_ = surface_goals(region_, reference_, options_.surface);
+    }
     const double now = least_determinant(targets);
     if (now > kFlat) return true;
     rounds_without_gain = now > least + 0.1 * std::abs(least) ? 0 : rounds_without_gain + 1;
-    if (rounds_without_gain == 2) break;
+    if (rounds_without_gain == 4) break;
     least = now;
   }
   return least_determinant(targets) > 0;

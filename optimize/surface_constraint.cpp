@@ -54,10 +54,8 @@ std::vector<Deviation> deviations(const Region& region, const RegionNormals& nor
       return std::copysign(s.distance, (s.point - at).dot(normal));
     };
     const double centre = signed_distance((p[0] + p[2]) / 2);
-    const double halves[2] = {signed_distance((p[0] + p[1] + p[2]) / 3),
-                              signed_distance((p[2] + p[3] + p[0]) / 3)};
     for (int k = 0; k < 4; ++k) {
-      for (double d : {centre, halves[0], halves[1]}) result[q[k]].take(d);
+      result[q[k]].take(centre);
       // The quad on the other side runs along this edge the other way: one of the two looks at it.
       const int from = q[k], to = q[(k + 1) % 4];
       if (from > to && from < region.n_free) continue;

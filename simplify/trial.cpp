@@ -90,7 +90,7 @@ Refusal relax_region(TrialContext& context, std::span<const CellHandle> region,
 }  // namespace
 
 bool stays_on_surface(TrialContext& context, std::span<const CellHandle> touched) {
-  constexpr double kClose = 0.8;  // of the limit; below it the loop's samples have never missed it
+  constexpr double kClose = 0.9;  // of the limit; below it the loop's samples have never missed it
   const double limit = context.distance_limit;
   const double d = context.distance.after_change(context.mesh, touched, limit);
   if (d <= kClose * limit) return true;
