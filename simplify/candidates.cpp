@@ -39,7 +39,7 @@ CandidateQueues make_queues(const HexMesh& mesh, const BaseComplex& bc,
 
 // A sheet that failed so often, each time in new surroundings, is let go until its own cells
 // change.
-constexpr int kMostTries = 4;
+constexpr int kMostTries = 3;
 
 std::size_t FailureMemory::key(const CollapsePlan& plan) {
   // FNV-1a over the cells, and the groups: the two diagonals of a chord remove the same cells.
@@ -56,7 +56,7 @@ bool FailureMemory::should_wait(std::size_t key, int step, bool patient) const {
   if (it == failures_.end()) return false;
   const Failure& f = it->second;
   if (f.times >= kMostTries) return true;
-  return step - f.step < (patient ? 1 << std::min(f.times, 5) : 1);
+  return step - f.step < (patient ? 1 << 2 * f.times : 1);
 }
 
 void FailureMemory::failed(std::size_t key, int step) {

@@ -55,8 +55,8 @@ bool same_shape(const TopologySummary& a, const TopologySummary& b) {
 
 // What half a parametrization must have reached of the floors for the other half to be worth its
 // time.
-constexpr double kHalfway = 0.3;
-constexpr double kHalfwayMean = 0.05;
+constexpr double kHalfway = 0.5;
+constexpr double kHalfwayMean = 0.03;
 
 // Parametrizes in two parts, so that what ends far off the surface is given up early. A step may
 // lower the quality of its region to the floors, but where it was under them already, not any
