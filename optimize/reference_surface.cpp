@@ -1,5 +1,6 @@
 #include "optimize/reference_surface.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -133,7 +134,7 @@ TriangleIndex::TriangleIndex(const Eigen::Matrix3Xd& points,
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(scene_, geometry);
   rtcReleaseGeometry(geometry);
-  rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_HIGH);
+  rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_MEDIUM);
   rtcCommitScene(scene_);
 }
 
@@ -161,7 +162,8 @@ struct ReferenceSurface::Impl {
 
   /// What a query reads of a triangle, in one place.
   struct Facet {
-    Eigen::Vector3d a, b, c, normal;
+    Eigen::Vector3d a, b, c, normal, centre;
+    double radius;  // of the sphere round `centre` that holds the triangle
     bool at_feature;
   };
 
@@ -194,8 +196,12 @@ void ReferenceSurface::Impl::make_facets(double feature_angle_deg) {
     const auto& [a, b, c] = triangles[f.idx()];
     bool at_feature = false;
     for (auto v = mesh.cfv_iter(f); v.is_valid(); ++v) at_feature |= sharp[v->idx()] != 0;
-    facets.push_back(
-        {points.col(a), points.col(b), points.col(c), to_eigen(mesh.normal(f)), at_feature});
+    const Eigen::Vector3d middle = (points.col(a) + points.col(b) + points.col(c)) / 3;
+    const double radius = std::sqrt(std::max({(points.col(a) - middle).squaredNorm(),
+                                              (points.col(b) - middle).squaredNorm(),
+                                              (points.col(c) - middle).squaredNorm()}));
+    facets.push_back({points.col(a), points.col(b), points.col(c), to_eigen(mesh.normal(f)),
+                      middle, radius, at_feature});
   }
 }
 
@@ -216,6 +222,9 @@ struct Search {
 
   bool offer(int id) {
     const Facet& t = facets[id];
+    // Too far by its bounding sphere; the slack keeps triangles at equal distance in the race.
+    const double reach = std::sqrt(squared) + t.radius + slack;
+    if ((p - t.centre).squaredNorm() > reach * reach) return false;
     if (hint && t.normal.dot(*hint) <= 0) return false;
     const TrianglePoint q = closest_point(p, t.a, t.b, t.c);
     const double d = (q.point - p).squaredNorm();
