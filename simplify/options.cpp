@@ -28,6 +28,7 @@ void validate(const SimplifyOptions& o) {
   expect(o.smoothing_trials >= 0, "smoothing_trials", o.smoothing_trials, ">= 0");
   expect(o.give_up_factor >= 1, "give_up_factor", o.give_up_factor, ">= 1");
   expect(o.max_chord_deviation > 0, "max_chord_deviation", o.max_chord_deviation, "> 0");
+  expect(o.max_failed_trials > 0, "max_failed_trials", o.max_failed_trials, "> 0");
   if (o.target_rate) {
     expect(*o.target_rate >= 0 && *o.target_rate <= 1, "target_rate", *o.target_rate, "[0, 1]");
   }

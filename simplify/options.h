@@ -39,6 +39,7 @@ struct SimplifyOptions {
   ParametrizationOptions parametrization = {.max_iterations = 4,
                                             .surface = {.treatment = SurfaceTreatment::fit}};
 
+  int max_failed_trials = 20;  ///< > 0, stop after so many parametrizations failed in a row
   std::optional<double> target_rate = {};     ///< [0, 1], stop at R = 1 - BC / BC_in
   std::optional<int> target_components = {};  ///< > 0, stop at so many
   std::optional<double> max_seconds = {};     ///< > 0, stop collapsing after so long

@@ -28,6 +28,9 @@ enum class Refusal {
 };
 inline constexpr int kRefusals = static_cast<int>(Refusal::hausdorff) + 1;
 
+/// Found out by moving vertices: the expensive way.
+constexpr bool is_geometric(Refusal r) { return r >= Refusal::inverted; }
+
 constexpr std::string_view name(Refusal r) {
   constexpr std::array<std::string_view, kRefusals> names = {
       "none",          "valence",  "boundary",     "feature",   "degenerate_cell",

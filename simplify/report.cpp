@@ -32,8 +32,8 @@ MeshFigures measure_mesh(const HexMesh& mesh) {
 }
 
 std::string_view name(StopReason reason) {
-  static constexpr std::array<std::string_view, 4> names = {"nothing_left", "target_reached",
-                                                            "out_of_time", "interrupted"};
+  static constexpr std::array<std::string_view, 5> names = {
+      "nothing_left", "no_progress", "target_reached", "out_of_time", "interrupted"};
   return names[static_cast<std::size_t>(reason)];
 }
 

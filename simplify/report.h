@@ -24,7 +24,7 @@ class HexMesh;
 MeshFigures measure_mesh(const HexMesh& mesh);
 
 /// Why the loop ended.
-enum class StopReason { nothing_left, target_reached, out_of_time, interrupted };
+enum class StopReason { nothing_left, no_progress, target_reached, out_of_time, interrupted };
 std::string_view name(StopReason reason);
 
 /// How often trials of one kind ended how.

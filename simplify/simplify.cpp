@@ -96,6 +96,8 @@ class Run {
     } else if ((options_.target_rate && rate >= *options_.target_rate) ||
                (options_.target_components && components <= *options_.target_components)) {
       report_.stopped = StopReason::target_reached;
+    } else if (failed_in_a_row_ >= options_.max_failed_trials) {
+      report_.stopped = StopReason::no_progress;
     } else {
       return false;
     }
@@ -134,6 +136,7 @@ class Run {
     if (!result.accepted()) {
       ++counts.refused[static_cast<int>(result.refusal)];
       memory_.failed(key, step_);
+      failed_in_a_row_ += is_geometric(result.refusal);
       return false;
     }
     ++counts.accepted;
@@ -144,6 +147,7 @@ class Run {
   void accept(BaseComplex bc) {
     bc_ = std::move(bc);
     ++step_;
+    failed_in_a_row_ = 0;
     not_refinable_.clear();
     if (static_cast<double>(bc_.components.size()) <= kVerifyEvery * verified_components_) verify();
     if (mesh_.cell_slots() > 4 * mesh_.n_cells()) compact();
@@ -227,6 +231,7 @@ class Run {
   HexMesh verified_;  // the last mesh within the limit at full sampling
   int verified_components_ = 0;
   int step_ = 0;
+  int failed_in_a_row_ = 0;  // trials that came as far as the geometry, since the last accepted one
 };
 
 }  // namespace
