@@ -148,6 +148,7 @@ class Run {
     bc_ = std::move(bc);
     ++step_;
     failed_in_a_row_ = 0;
+    relieve_farthest(context_, options_);
     not_refinable_.clear();
     if (static_cast<double>(bc_.components.size()) <= kVerifyEvery * verified_components_) verify();
     if (mesh_.cell_slots() > 4 * mesh_.n_cells()) compact();

@@ -99,6 +99,29 @@ bool stays_on_surface(TrialContext& context, std::span<const CellHandle> touched
   return false;
 }
 
+bool relieve_farthest(TrialContext& context, const SimplifyOptions& options) {
+  constexpr double kCloseToLimit = 0.7;
+  const double before = context.distance.distance();
+  if (before < kCloseToLimit * context.distance_limit) return false;
+  HexMesh& mesh = context.mesh;
+  const std::vector<double> by_side = context.distance.distance_by_halfface();
+  const auto worst = std::max_element(by_side.begin(), by_side.end());
+  const auto side = mesh.vertices(HalfFaceHandle(static_cast<int>(worst - by_side.begin())));
+  const std::vector<CellHandle> region = cells_around(mesh, side, options.rings);
+  const Quality old = measure(mesh, region);
+  ParametrizationOptions p = options.parametrization;
+  p.min_scaled_jacobian = std::min(options.min_scaled_jacobian, old.least);
+  Transaction attempt(mesh);
+  if (!parametrize(mesh, region, context.reference, p).valid()) return false;
+  if (context.distance.after_change(mesh, region, before) >= before) {
+    context.distance.rollback();
+    return false;
+  }
+  context.distance.commit();
+  attempt.commit();
+  return true;
+}
+
 std::vector<CellHandle> cells_around(const HexMesh& mesh, std::span<const VertexHandle> vertices,
                                      int rings) {
   std::vector<char> seen_vertex(mesh.vertex_slots(), 0), seen_cell(mesh.cell_slots(), 0);

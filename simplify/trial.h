@@ -38,6 +38,11 @@ TrialResult try_collapse(TrialContext& context, const BaseComplex& bc, const Col
 /// against the limits; where it is close, at full sampling. Over one, the distance is rolled back.
 bool stays_on_surface(TrialContext& context, std::span<const CellHandle> touched);
 
+/// Relaxes round the place farthest from the surface if that is close to the limit: later trials there
+/// would fail for it, whatever they do. Kept only if it brings the distance down.
+/// \return whether it did
+bool relieve_farthest(TrialContext& context, const SimplifyOptions& options);
+
 /// The live cells within `rings` of the vertices; ring 1 touches them. Ascending.
 std::vector<CellHandle> cells_around(const HexMesh& mesh, std::span<const VertexHandle> vertices,
                                      int rings);
