@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
 #include <string>
 
 #include <Eigen/Geometry>
@@ -82,8 +83,7 @@ bool is_within(const HexMesh& mesh, const ReferenceSurface& reference, double li
   o.at_least = 0.999 * limit;
   o.enough = limit;
   const ReferenceSurface surface = make_reference_surface(mesh);
-  return one_sided_distance(surface, reference, o) <= limit &&
-         one_sided_distance(reference, surface, o) <= limit;
+  return hausdorff_distance(surface, reference, o).distance() <= limit;
 }
 
 double one_sided_distance(const ReferenceSurface& from, const ReferenceSurface& to,
@@ -116,8 +116,11 @@ double one_sided_distance(const ReferenceSurface& from, const ReferenceSurface& 
 HausdorffDistance hausdorff_distance(const ReferenceSurface& surface,
                                      const ReferenceSurface& reference,
                                      const HausdorffOptions& options) {
-  return {one_sided_distance(surface, reference, options),
-          one_sided_distance(reference, surface, options), reference.bounding_box_diagonal()};
+  const auto policy = options.parallel ? std::launch::async : std::launch::deferred;
+  auto backward =
+      std::async(policy, [&] { return one_sided_distance(reference, surface, options); });
+  const double forward = one_sided_distance(surface, reference, options);
+  return {forward, backward.get(), reference.bounding_box_diagonal()};
 }
 
 HausdorffDistance hausdorff_distance(const HexMesh& mesh, const ReferenceSurface& reference,

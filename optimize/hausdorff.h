@@ -19,8 +19,11 @@ struct HausdorffOptions {
   int points_per_triangle = 10;  ///< > 0, at least so many on every triangle
   int points_per_surface =
       0;  ///< ≥ 0, spread by area; 0: points_per_triangle × the larger triangle count
-  double at_least = 0;  ///< ≥ 0, model units: below it distances are not told apart, which saves time
-  double enough = std::numeric_limits<double>::infinity();  ///< model units: beyond it the search ends
+  bool parallel = false;  ///< the two directions on a thread each; the result is the same
+  double at_least =
+      0;  ///< ≥ 0, model units: below it distances are not told apart, which saves time
+  double enough =
+      std::numeric_limits<double>::infinity();  ///< model units: beyond it the search ends
 };
 
 /// Distances in model units.

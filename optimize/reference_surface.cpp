@@ -178,9 +178,7 @@ struct ReferenceSurface::Impl {
   TriangleIndex index;
 };
 
-namespace {
-
-}  // namespace
+namespace {}  // namespace
 
 void ReferenceSurface::Impl::make_facets(double feature_angle_deg) {
   const double least = std::cos(feature_angle_deg * std::numbers::pi / 180);
@@ -197,11 +195,11 @@ void ReferenceSurface::Impl::make_facets(double feature_angle_deg) {
     bool at_feature = false;
     for (auto v = mesh.cfv_iter(f); v.is_valid(); ++v) at_feature |= sharp[v->idx()] != 0;
     const Eigen::Vector3d middle = (points.col(a) + points.col(b) + points.col(c)) / 3;
-    const double radius = std::sqrt(std::max({(points.col(a) - middle).squaredNorm(),
-                                              (points.col(b) - middle).squaredNorm(),
-                                              (points.col(c) - middle).squaredNorm()}));
-    facets.push_back({points.col(a), points.col(b), points.col(c), to_eigen(mesh.normal(f)),
-                      middle, radius, at_feature});
+    const double radius = std::sqrt(
+        std::max({(points.col(a) - middle).squaredNorm(), (points.col(b) - middle).squaredNorm(),
+                  (points.col(c) - middle).squaredNorm()}));
+    facets.push_back({points.col(a), points.col(b), points.col(c), to_eigen(mesh.normal(f)), middle,
+                      radius, at_feature});
   }
 }
 
@@ -281,8 +279,7 @@ SurfacePoint ReferenceSurface::closest(const Eigen::Vector3d& p, int near) const
 
 SurfacePoint ReferenceSurface::closest(const Eigen::Vector3d& p, const Eigen::Vector3d& hint,
                                        int near) const {
-  const SurfacePoint found =
-      impl_->query(p, &hint, std::numeric_limits<double>::infinity(), near);
+  const SurfacePoint found = impl_->query(p, &hint, std::numeric_limits<double>::infinity(), near);
   return found.triangle >= 0 ? found : closest(p, near);
 }
 
@@ -295,9 +292,7 @@ const std::vector<std::array<int, 3>>& ReferenceSurface::triangles() const {
   return impl_->triangles;
 }
 double ReferenceSurface::bounding_box_diagonal() const { return impl_->diagonal; }
-bool ReferenceSurface::at_feature(int triangle) const {
-  return impl_->facets[triangle].at_feature;
-}
+bool ReferenceSurface::at_feature(int triangle) const { return impl_->facets[triangle].at_feature; }
 Eigen::Vector3d ReferenceSurface::triangle_normal(int triangle) const {
   return to_eigen(impl_->mesh.normal(TriangleMesh::FaceHandle(triangle)));
 }

@@ -72,12 +72,15 @@ HexPoints points(const HexMesh& mesh, CellHandle c) {
 
 double scaled_jacobian(const HexPoints& p) {
   double least = 1;
+  const auto take = [&least](double sj) {
+    least = std::isnan(sj) ? -1.0 : std::min(least, sj);  // a coordinate that is not finite
+  };
   for (int i = 0; i < kCorners; ++i) {
     const auto& n = kCornerNeighbors[i];
-    least = std::min(least, normalized_determinant(p[n[0]] - p[i], p[n[1]] - p[i], p[n[2]] - p[i]));
+    take(normalized_determinant(p[n[0]] - p[i], p[n[1]] - p[i], p[n[2]] - p[i]));
   }
-  return std::min(least, normalized_determinant(principal_axis(p, 0), principal_axis(p, 1),
-                                                principal_axis(p, 2)));
+  take(normalized_determinant(principal_axis(p, 0), principal_axis(p, 1), principal_axis(p, 2)));
+  return least;
 }
 
 double volume(const HexPoints& p) {

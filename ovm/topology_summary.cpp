@@ -81,12 +81,10 @@ TopologySummary summarize_topology(const HexMesh& mesh) {
   s.n_boundary_edges = static_cast<int>(std::count(on_edge.begin(), on_edge.end(), 1));
   s.n_boundary_faces = static_cast<int>(boundary.size());
   s.n_boundary_components = count_boundary_components(mesh, boundary);
-  // The Euler number of a closed orientable surface of genus g is 2 - 2g.
-  s.genus = s.n_boundary_components -
-            (s.n_boundary_vertices - s.n_boundary_edges + s.n_boundary_faces) / 2;
-
   const auto part = parts_of_cells(mesh);
   s.n_parts = part.empty() ? 0 : *std::max_element(part.begin(), part.end()) + 1;
+  // The Euler number of a closed orientable surface of genus g is 2 - 2g.
+  s.genus = s.n_parts - (s.n_boundary_vertices - s.n_boundary_edges + s.n_boundary_faces) / 2;
   return s;
 }
 

@@ -15,7 +15,8 @@ struct TopologySummary {
   int n_parts = 0;                ///< connected through faces
   int n_boundary_components = 0;  ///< closed surfaces, connected through edges
   int euler_characteristic = 0;   ///< V - E + F - C
-  int genus = 0;                  ///< summed over the boundary components
+  int genus = 0;  ///< parts less half the boundary's Euler number: handles, less 1 a cavity, as
+                  ///< the published tables count
 };
 
 /// Cost O(#cells).

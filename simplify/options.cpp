@@ -24,6 +24,7 @@ void validate(const SimplifyOptions& o) {
   expect(o.mean_scaled_jacobian >= 0 && o.mean_scaled_jacobian < 1, "mean_scaled_jacobian",
          o.mean_scaled_jacobian, "[0, 1)");
   expect(o.target_hexahedra_rel > 0, "target_hexahedra_rel", o.target_hexahedra_rel, "> 0");
+  expect(o.threads > 0, "threads", o.threads, "> 0");
   expect(o.rings > 0, "rings", o.rings, "> 0");
   expect(o.smoothing_trials >= 0, "smoothing_trials", o.smoothing_trials, ">= 0");
   expect(o.give_up_factor >= 1, "give_up_factor", o.give_up_factor, ">= 1");

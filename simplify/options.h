@@ -31,7 +31,9 @@ struct SimplifyOptions {
   double mean_scaled_jacobian = 0.7;  ///< [0, 1); the same for the mean over the region
   double target_hexahedra_rel = 1.0;  ///< > 0, of the input's count; below it sheets are refined
   int rings = 4;                      ///< > 0, rings of cells round a collapse that move, per layer
-  bool smooth = true;                 ///< global smoothing at the end
+  int threads =
+      1;  ///< > 0; two are used, for the two directions of distance checks at full sampling
+  bool smooth = true;         ///< global smoothing at the end
   int smoothing_trials = 50;  ///< >= 0, passes over the neighbourhoods of the worst cells then
   double give_up_factor = 2;  ///< >= 1; half relaxed and so many limits away, a trial ends
   double max_chord_deviation = 0.9;  ///< > 0, D(c) / 3k of a chord that is tried

@@ -58,7 +58,8 @@ class Run {
                  distance_,
                  summarize_topology(mesh),
                  kLoopShare * options.hausdorff_limit_rel * reference_.bounding_box_diagonal(),
-                 options.hausdorff_limit_rel * reference_.bounding_box_diagonal()},
+                 options.hausdorff_limit_rel * reference_.bounding_box_diagonal(),
+                 options.threads > 1},
         bc_(extract_base_complex(mesh)) {
     if (bc_.irregular > 0) {
       throw InputError(fmt::format("{} regions of the base complex are no cuboids", bc_.irregular));

@@ -94,7 +94,9 @@ bool stays_on_surface(TrialContext& context, std::span<const CellHandle> touched
   const double limit = context.distance_limit;
   const double d = context.distance.after_change(context.mesh, touched, limit);
   if (d <= kClose * limit) return true;
-  if (d <= limit && is_within(context.mesh, context.reference, context.final_limit)) return true;
+  if (d <= limit && is_within(context.mesh, context.reference, context.final_limit,
+                              {.parallel = context.parallel}))
+    return true;
   context.distance.rollback();
   return false;
 }

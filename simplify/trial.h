@@ -20,6 +20,7 @@ struct TrialContext {
   TopologySummary shape;  ///< of the input: genus and parts that every state must have
   double distance_limit;  ///< model units, at the sampling of `distance`
   double final_limit;     ///< model units, at full sampling
+  bool parallel = false;  ///< may use a second thread
 };
 
 struct TrialResult {

@@ -27,7 +27,6 @@ extern "C" void remember_signal(int signal) {
 struct Request {
   SimplifyOptions options;
   std::string preset = "octree";
-  int threads = 1;
   bool no_chords = false;
   std::optional<double> max_seconds, target_rate;
   std::optional<int> target_components;
@@ -134,7 +133,7 @@ int main(int argc, char** argv) {
   program.add_input();
   program.add_output();
   program.add_json();
-  program.add_threads(request.threads);
+  program.add_threads(request.options.threads);
   add_options(program.app(), request);
   return program.run(argc, argv, [&] { return run(program, request); });
 }

@@ -18,7 +18,8 @@ struct Bench {
         reference(make_reference_surface(mesh)),
         distance(mesh, reference),
         context{mesh, reference, distance, summarize_topology(mesh),
-                0.01 * reference.bounding_box_diagonal()} {}
+                0.01 * reference.bounding_box_diagonal(),
+                0.01 * reference.bounding_box_diagonal(), false} {}
   std::optional<DualSheet> choose(const RefineOptions& o,
                                   std::span<const EdgeHandle> excluded = {}) const {
     return choose_sheet_to_refine(mesh, distance, o, excluded);

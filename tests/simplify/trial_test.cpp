@@ -19,7 +19,8 @@ struct Bench {
         reference(make_reference_surface(mesh)),
         distance(mesh, reference),
         context{mesh, reference, distance, summarize_topology(mesh),
-                limit_rel * reference.bounding_box_diagonal()},
+                limit_rel * reference.bounding_box_diagonal(),
+                limit_rel * reference.bounding_box_diagonal(), false},
         bc(extract_base_complex(mesh)) {}
   HexMesh mesh;
   ReferenceSurface reference;
