@@ -6,6 +6,7 @@
 
 #include "io/file.h"
 #include "io/formats.h"
+#include "tools/surface_input.h"
 
 namespace hexweft::cli {
 namespace {
@@ -141,6 +142,13 @@ HexMesh Program::read_mesh(const ReadOptions& options) {
   HexMesh mesh = read_hex_mesh(input_path_, with_format, &report);
   for (const std::string& text : report.notes) note(text);
   return mesh;
+}
+
+ReferenceSurface Program::read_surface(const std::string& path) {
+  std::vector<std::string> notes;
+  ReferenceSurface surface = read_surface_input(path, notes);
+  for (const std::string& text : notes) note(text);
+  return surface;
 }
 
 void Program::write_mesh(const HexMesh& mesh) {

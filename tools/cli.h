@@ -27,6 +27,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/hex_mesh_io.h"
+#include "optimize/reference_surface.h"
 
 namespace hexweft::cli {
 
@@ -53,7 +54,9 @@ class Program {
 
   // ---- For the body ----
   HexMesh read_mesh(const ReadOptions& options = {});  ///< the INPUT; notes go to standard error
-  void write_mesh(const HexMesh& mesh);                ///< to the --output
+  /// Of a triangle file, or the boundary of a mesh (surface_input.h); notes go to standard error.
+  ReferenceSurface read_surface(const std::string& path);
+  void write_mesh(const HexMesh& mesh);  ///< to the --output
   bool wants_json() const { return !json_path_.empty(); }
   void write_json(const nlohmann::ordered_json& report);  ///< if --json asks for it
   /// A line for the user, on standard output, or on standard error if that carries a result.

@@ -1,0 +1,99 @@
+#include "optimize/surface_io.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <fstream>
+#include <system_error>
+
+// The readers must be known before the mesh type.
+#include <OpenMesh/Core/IO/MeshIO.hh>
+// clang-format keeps this below the readers.
+#include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
+
+#include "ovm/errors.h"
+
+namespace hexweft {
+namespace {
+
+struct Traits : OpenMesh::DefaultTraits {
+  using Point = OpenMesh::Vec3d;
+  using Normal = OpenMesh::Vec3d;
+};
+using PolygonMesh = OpenMesh::PolyMesh_ArrayKernelT<Traits>;
+
+constexpr std::array<std::string_view, 4> kExtensions = {".obj", ".off", ".ply", ".stl"};
+
+std::string extension_of(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  for (char& c : extension) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return extension;
+}
+
+// OpenMesh reports what it does not like on the console.
+class SilentOpenMesh {
+ public:
+  SilentOpenMesh() {
+    omerr().disable();
+    omlog().disable();
+  }
+  SilentOpenMesh(const SilentOpenMesh&) = delete;
+  SilentOpenMesh& operator=(const SilentOpenMesh&) = delete;
+  ~SilentOpenMesh() {
+    omerr().enable();
+    omlog().enable();
+  }
+};
+
+[[noreturn]] void fail(const std::filesystem::path& path, const std::string& problem) {
+  throw FormatError(path.string() + ": " + problem);
+}
+
+PolygonMesh read_polygons(const std::filesystem::path& path) {
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  std::error_code error;
+  if (!file || std::filesystem::is_directory(path, error)) {
+    const int reason = error ? error.value() : file ? EISDIR : errno;
+    fail(path, "cannot be read: " + std::generic_category().message(reason));
+  }
+  const std::string extension = extension_of(path);
+  PolygonMesh mesh;
+  OpenMesh::IO::Options options;
+  const SilentOpenMesh silent;
+  if (!OpenMesh::IO::read_mesh(mesh, file, extension, options)) {
+    fail(path, "is no surface in the format " + extension.substr(1));
+  }
+  return mesh;
+}
+
+}  // namespace
+
+std::span<const std::string_view> surface_extensions() { return kExtensions; }
+
+bool is_surface_file(const std::filesystem::path& path) {
+  return std::find(kExtensions.begin(), kExtensions.end(), extension_of(path)) != kExtensions.end();
+}
+
+ReferenceSurface read_surface(const std::filesystem::path& path, double feature_angle_deg) {
+  if (!is_surface_file(path)) fail(path, "expected a surface: .obj, .off, .ply or .stl");
+  const PolygonMesh mesh = read_polygons(path);
+  Eigen::Matrix3Xd points(3, mesh.n_vertices());
+  for (const auto v : mesh.vertices()) {
+    for (int k = 0; k < 3; ++k) points(k, v.idx()) = mesh.point(v)[k];
+  }
+  std::vector<std::array<int, 3>> triangles;
+  for (const auto f : mesh.faces()) {
+    std::vector<int> corners;
+    for (auto v = mesh.cfv_iter(f); v.is_valid(); ++v) corners.push_back(v->idx());
+    for (std::size_t i = 2; i < corners.size(); ++i) {
+      triangles.push_back({corners[0], corners[i - 1], corners[i]});
+    }
+  }
+  if (triangles.empty()) fail(path, "has no triangles");
+  if (!points.allFinite()) fail(path, "has a coordinate that is not finite");
+  return {std::move(points), std::move(triangles), feature_angle_deg};
+}
+
+}  // namespace hexweft

@@ -1,0 +1,79 @@
+// hexweft-distance: how far two surfaces are from each other.
+#include <fmt/format.h>
+
+#include "optimize/hausdorff.h"
+#include "tools/cli.h"
+#include "tools/farthest_point.h"
+#include "tools/surface_input.h"
+
+namespace hexweft {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Request {
+  std::string a, b;
+  HausdorffOptions options;
+  int threads = 1;
+};
+
+std::string text_of(const Eigen::Vector3d& p) {
+  return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x(), p.y(), p.z());
+}
+
+Json to_json(const cli::FarthestPoint& f, double diagonal) {
+  const auto triple = [](const Eigen::Vector3d& p) { return Json{p.x(), p.y(), p.z()}; };
+  return {{"distance", f.distance},
+          {"ratio", f.distance / diagonal},
+          {"at", triple(f.point)},
+          {"closest", triple(f.closest)}};
+}
+
+int run(cli::Program& program, Request& request) {
+  if (request.a == "-" && request.b == "-") throw InputError("only one of A and B can be -");
+  const ReferenceSurface a = program.read_surface(request.a);
+  const ReferenceSurface b = program.read_surface(request.b);
+  HausdorffOptions& options = request.options;
+  options.parallel = request.threads > 1;
+  const HausdorffDistance d = hausdorff_distance(a, b, options);
+  const cli::FarthestPoint there = cli::find_farthest_point(a, b, d.forward, options);
+  const cli::FarthestPoint back = cli::find_farthest_point(b, a, d.backward, options);
+  program.write_json({{"distance", d.distance()},
+                      {"diagonal", d.diagonal},
+                      {"ratio", d.ratio()},
+                      {"forward", to_json(there, d.diagonal)},
+                      {"backward", to_json(back, d.diagonal)}});
+  if (program.wants_json()) return cli::kDone;
+  const auto row = [&](const char* label, double distance, const std::string& where) {
+    program.say(fmt::format("{:>16} {:>14.6g} {:>10.4f} %{}", label, distance,
+                            100 * distance / d.diagonal, where));
+  };
+  row("from A to B", d.forward, "  at " + text_of(there.point) + " of A");
+  row("from B to A", d.backward, "  at " + text_of(back.point) + " of B");
+  row("both ways", d.distance(), "");
+  program.say(fmt::format("{:>16} {:>14.6g}", "diagonal of B", d.diagonal));
+  return cli::kDone;
+}
+
+}  // namespace
+}  // namespace hexweft
+
+int main(int argc, char** argv) {
+  using namespace hexweft;
+  cli::Program program("hexweft-distance",
+                       "Measures the point-sampled Hausdorff distance of two surfaces, in model "
+                       "units and as a fraction of the diagonal of B's bounding box.");
+  Request request;
+  CLI::App& app = program.app();
+  app.add_option("A", request.a, std::string("First surface: ") + cli::kSurfaceHelp)->required();
+  app.add_option("B", request.b, "Second surface, likewise; - is a mesh on standard input")
+      ->required();
+  app.add_option("--points-per-triangle", request.options.points_per_triangle,
+                 "Look at no fewer points of every triangle; as many a triangle are spread over "
+                 "the surface by area")
+      ->check(cli::in_range(1, 1e6))
+      ->capture_default_str();
+  program.add_threads(request.threads);
+  program.add_json();
+  return program.run(argc, argv, [&] { return run(program, request); });
+}
