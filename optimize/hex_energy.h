@@ -10,42 +10,45 @@
 /// and divided by the target's length; its determinant is positive in a valid hexahedron.
 #pragma once
 
-#include <array>
 #include <span>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "optimize/energies/table.h"
+#include "optimize/hex_batch.h"
 
 namespace hexweft {
 
-/// Corners of a hexahedron as columns of a point matrix, in the order of ovm/hex_numbering.h.
-using HexCorners = std::array<int, 8>;
-
-/// What a hexahedron should look like.
-struct TargetCuboid {
-  Eigen::Vector3d lengths = Eigen::Vector3d::Ones();  ///< > 0, along the local axes, model units
-  double weight = 1;                                  ///< > 0, of this hexahedron in the sum
-};
-
-/// Instruction sets the evaluation is compiled for. `automatic` takes the best the machine has.
-enum class InstructionSet { automatic, portable, avx2, avx512 };
-
 /// Σ weight · mean over corners of the energy. Infinite where a barrier energy meets a corner with
 /// det ≤ 0; the gradient is then unspecified.
-/// \param points    3 × #points
-/// \param gradient  null, or 3 × #points to which the gradient is *added*
+/// \param points      3 × #points
+/// \param gradient    null, or 3 × #points to which the gradient is *added*
+/// \param stay_valid  treat any energy as a barrier energy
 /// \throws InputError if the machine lacks the instruction set asked for
 double hex_energy(const Energy& energy, const Eigen::Matrix3Xd& points,
                   std::span<const HexCorners> hexes, std::span<const TargetCuboid> targets,
-                  Eigen::Matrix3Xd* gradient, InstructionSet set = InstructionSet::automatic);
+                  Eigen::Matrix3Xd* gradient, InstructionSet set = InstructionSet::automatic,
+                  bool stay_valid = false);
 
 /// Adds to `blocks` a positive model of each vertex's 3 × 3 diagonal block of the second
 /// derivative. \param blocks  6 × #points: xx, xy, xz, yy, yz, zz
 void add_hex_curvature(const Energy& energy, const Eigen::Matrix3Xd& points,
                        std::span<const HexCorners> hexes, std::span<const TargetCuboid> targets,
                        Eigen::Matrix<double, 6, Eigen::Dynamic>& blocks);
+
+/// A column an edge: the derivative of the energy by the edge vector (x, y, z), which runs along its
+/// axis, and a positive model of the second derivative (xx, xy, xz, yy, yz, zz).
+using EdgeTerms = Eigen::Matrix<double, 9, Eigen::Dynamic>;
+
+/// Adds the terms of every mesh edge. Each column of a corner's Jacobian is an edge vector, so an
+/// energy of the Jacobians is one of the edges, and the model needs no more than a metric an edge.
+/// \param edges  one a hexahedron
+/// \return the energy; infinite as with hex_energy(), the terms are then unspecified
+double hex_edge_terms(const Energy& energy, const Eigen::Matrix3Xd& points,
+                      std::span<const HexCorners> hexes, std::span<const TargetCuboid> targets,
+                      std::span<const HexEdges> edges, EdgeTerms& terms,
+                      InstructionSet set = InstructionSet::automatic, bool stay_valid = false);
 
 /// Least corner determinant of every hexahedron over its target's volume: positive means valid
 /// corners.

@@ -12,12 +12,10 @@
 #include <ceres/gradient_problem.h>
 #include <ceres/gradient_problem_solver.h>
 
+#include "ovm/errors.h"
+
 namespace hexweft {
 namespace {
-
-double minimum_of(const Energy& energy) {
-  return std::visit([](const auto& e) { return e.minimum(); }, energy);
-}
 
 double weight_sum(const RelaxationProblem& p) {
   double sum = 0;
@@ -192,7 +190,7 @@ double relaxation_objective(const RelaxationProblem& problem, const Energy& ener
                             const Eigen::Matrix3Xd& points, Eigen::Matrix3Xd* gradient) {
   const double value = raw_objective(problem, energy, points, gradient);
   if (gradient) gradient->rightCols(points.cols() - problem.n_free).setZero();
-  return value - minimum_of(energy) * weight_sum(problem);
+  return value - energy.minimum() * weight_sum(problem);
 }
 
 RelaxationReport relax(RelaxationProblem& problem, const Energy& energy,
@@ -200,7 +198,7 @@ RelaxationReport relax(RelaxationProblem& problem, const Energy& energy,
   validate(options);
   RelaxationReport report;
   const double per_hex = problem.hexes.empty() ? 1 : 1.0 / weight_sum(problem);
-  const double offset = minimum_of(energy) * weight_sum(problem);
+  const double offset = energy.minimum() * weight_sum(problem);
   double cost = raw_objective(problem, energy, problem.points, nullptr) - offset;
   report.feasible = std::isfinite(cost);
   report.initial_energy = report.final_energy = cost * per_hex;

@@ -2,14 +2,7 @@
 /// What a distortion energy sees and what it answers, for one scalar type: double, or eight corners
 /// at once.
 ///
-/// An energy is a struct with
-///     static constexpr std::string_view name;    // its name on the command line
-///     static constexpr bool barrier;             // infinite as det J -> 0+, not defined beyond
-///     double minimum() const;                    // its value at rotations
-///     template <class T> T value_and_stress(const Deformation<T>&, Mat3<T>& stress) const;
-///     template <class T> Curvature<T> curvature(const Deformation<T>&) const;
-///     Eigen::Vector3d d_sigma(const Eigen::Vector3d& sigma) const;
-/// and a row in table.h. Nothing else has to know it.
+/// energy.h states what a struct needs to be an energy.
 #pragma once
 
 #include "optimize/lanes.h"
@@ -33,6 +26,24 @@ HEXWEFT_INLINE Deformation<T> make_deformation(const Mat3<T>& j) {
   d.cofactor.col[2] = cross(j.col[0], j.col[1]);
   d.det = dot(j.col[0], d.cofactor.col[0]);
   return d;
+}
+
+/// M Mᵀ M. With the cofactor matrix C it gives the derivative of |J⁻¹|² = |C|² / det²,
+/// which is −2 C Cᵀ C / det³.
+template <class T>
+HEXWEFT_INLINE Mat3<T> gram_product(const Mat3<T>& m) {
+  const Vec3<T>* c = m.col;
+  const T c00 = dot(c[0], c[0]), c11 = dot(c[1], c[1]), c22 = dot(c[2], c[2]);
+  const T c01 = dot(c[0], c[1]), c02 = dot(c[0], c[2]), c12 = dot(c[1], c[2]);
+  return {{c00 * c[0] + c01 * c[1] + c02 * c[2],  //
+           c01 * c[0] + c11 * c[1] + c12 * c[2],  //
+           c02 * c[0] + c12 * c[1] + c22 * c[2]}};
+}
+
+/// a M + b N.
+template <class T>
+HEXWEFT_INLINE Mat3<T> combine(const T& a, const Mat3<T>& m, const T& b, const Mat3<T>& n) {
+  return {{a * m.col[0] + b * n.col[0], a * m.col[1] + b * n.col[1], a * m.col[2] + b * n.col[2]}};
 }
 
 /// A positive model of the second derivative along rank-one changes dJ = u gᵀ, the only ones one

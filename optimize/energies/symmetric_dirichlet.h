@@ -38,6 +38,26 @@ struct SymmetricDirichlet {
     return {broadcast<T>(2), 4.0 * inverse2, 2.0 * inverse2 * inverse2};
   }
 
+  /// J − J⁻ᵀ.
+  void residual(const Deformation<double>& d, Mat3<double>& r) const {
+    r = combine<double>(1, d.jacobian, -1 / d.det, d.cofactor);
+  }
+
+  /// Along dJ = e_axis e_columnᵀ: dJ + J⁻ᵀ dJᵀ J⁻ᵀ.
+  Mat3<double> residual_change(const Deformation<double>& d, int column, int axis) const {
+    const Vec3<double>& b = d.cofactor.col[column];
+    const auto entry = [axis](const Vec3<double>& v) {
+      return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
+    };
+    Mat3<double> r;
+    for (int k = 0; k < 3; ++k) {
+      r.col[k] = (entry(d.cofactor.col[k]) / (d.det * d.det)) * b;
+    }
+    Vec3<double>& own = r.col[column];
+    (axis == 0 ? own.x : axis == 1 ? own.y : own.z) += 1;
+    return r;
+  }
+
   Eigen::Vector3d d_sigma(const Eigen::Vector3d& sigma) const {
     return 2 * (sigma.array() - sigma.array().pow(-3)).matrix();
   }
