@@ -13,7 +13,7 @@ namespace hexweft {
 using HexCorners = std::array<int, 8>;
 
 /// The twelve edges of a hexahedron as indices into an array of edges, in the order of
-/// kEdgeCorners (ovm/hex_numbering.h).
+/// kEdgeCorners (ovm/hex_numbering.h); ~index where the mesh edge runs the other way.
 using HexEdges = std::array<int, 12>;
 
 /// What a hexahedron should look like.

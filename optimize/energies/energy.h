@@ -32,7 +32,7 @@ namespace hexweft {
 /// or plain functions of `double`, called once for each corner. An energy may also have
 ///     void residual(const Deformation<double>&, Mat3<double>& r) const;
 ///     Mat3<double> residual_change(const Deformation<double>&, int column, int axis) const;
-/// with |r|² = value − minimum, and its derivative along e_axis e_columnᵀ: see residual_blocks.h.
+/// with |r|² = value − minimum, and its derivative along e_axis e_columnᵀ: the residual blocks take it.
 template <class E>
 concept DistortionEnergy = requires(const E& e, const Deformation<double>& d, Mat3<double>& stress,
                                     const Eigen::Vector3d& sigma) {

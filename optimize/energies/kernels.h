@@ -235,11 +235,12 @@ struct EdgeTerms {
     Vec3<Lanes> g = (w * inverse_length) * stress.col[A];
     g = g + across<A>(g);
     for (int e = 0; e < 4; ++e) {
-      const int c = kEdgeCorners[4 * A + e][0];
-      double* to = terms + 9 * static_cast<std::ptrdiff_t>(edges[4 * A + e]);
-      to[0] += g.x[c];
-      to[1] += g.y[c];
-      to[2] += g.z[c];
+      const int c = kEdgeCorners[4 * A + e][0], id = edges[4 * A + e];
+      const double sign = id < 0 ? -1 : 1;
+      double* to = terms + 9 * static_cast<std::ptrdiff_t>(id < 0 ? ~id : id);
+      to[0] += sign * g.x[c];
+      to[1] += sign * g.y[c];
+      to[2] += sign * g.z[c];
       for (int m = 0; m < 6; ++m) to[3 + m] += packed[m][c];
     }
   }

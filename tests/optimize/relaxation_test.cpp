@@ -5,36 +5,10 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/optimize/test_meshes.h"
+#include "tests/optimize/relaxation_problem.h"
 
 namespace hexweft {
 namespace {
-
-/// The inner vertices of a perturbed grid are free, the boundary is fixed.
-RelaxationProblem make_problem(double amount, unsigned seed) {
-  HexMesh mesh = make_grid({4, 4, 4});
-  std::vector<VertexHandle> order;
-  for (int pass = 0; pass < 2; ++pass) {
-    for (VertexHandle v : mesh.vertices()) {
-      if (mesh.is_boundary(v) == (pass == 1)) order.push_back(v);
-    }
-  }
-  perturb(mesh, amount, false, seed);
-  std::vector<int> local(mesh.vertex_slots());
-  RelaxationProblem p;
-  p.points.resize(3, mesh.n_vertices());
-  for (int i = 0; VertexHandle v : order) {
-    p.points.col(i) = mesh.point(v);
-    local[v.idx] = i++;
-    if (!mesh.is_boundary(v)) p.n_free = i;
-  }
-  for (CellHandle c : mesh.cells()) {
-    HexCorners& hex = p.hexes.emplace_back();
-    for (int k = 0; VertexHandle v : mesh.vertices(c)) hex[k++] = local[v.idx];
-    p.targets.emplace_back();
-  }
-  return p;
-}
 
 TEST(Relaxation, GradientOfTheWholeObjectiveAgreesWithDifferences) {
   RelaxationProblem p = make_problem(0.2, 1);
