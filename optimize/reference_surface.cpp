@@ -141,7 +141,8 @@ TriangleIndex::TriangleIndex(const Eigen::Matrix3Xd& points,
 }  // namespace
 
 struct ReferenceSurface::Impl {
-  Impl(Eigen::Matrix3Xd p, std::vector<std::array<int, 3>> t, double feature_angle_deg)
+  Impl(Eigen::Matrix3Xd p, std::vector<std::array<int, 3>> t, double feature_angle_deg,
+       const FeatureOptions& features)
       : points((check(p, t), std::move(p))),
         triangles(std::move(t)),
         lower(points.rowwise().minCoeff()),
@@ -150,7 +151,8 @@ struct ReferenceSurface::Impl {
         diagonal((upper - lower).norm()),
         mesh(make_triangle_mesh(points, triangles, first_vertex)),
         normals(corner_normals(mesh, first_vertex, feature_angle_deg)),
-        index(points, triangles, centre) {
+        index(points, triangles, centre),
+        curves(points, find_features(points, triangles, features)) {
     make_facets(feature_angle_deg);
   }
 
@@ -176,9 +178,8 @@ struct ReferenceSurface::Impl {
   std::vector<Eigen::Matrix3d> normals;  // of the corners, as columns
   std::vector<Facet> facets;
   TriangleIndex index;
+  FeatureCurves curves;
 };
-
-namespace {}  // namespace
 
 void ReferenceSurface::Impl::make_facets(double feature_angle_deg) {
   const double least = std::cos(feature_angle_deg * std::numbers::pi / 180);
@@ -269,9 +270,9 @@ SurfacePoint ReferenceSurface::Impl::query(const Eigen::Vector3d& p, const Eigen
 
 ReferenceSurface::ReferenceSurface(Eigen::Matrix3Xd points,
                                    std::vector<std::array<int, 3>> triangles,
-                                   double feature_angle_deg)
-    : impl_(std::make_shared<const Impl>(std::move(points), std::move(triangles),
-                                         feature_angle_deg)) {}
+                                   double feature_angle_deg, const FeatureOptions& features)
+    : impl_(std::make_shared<const Impl>(std::move(points), std::move(triangles), feature_angle_deg,
+                                         features)) {}
 
 SurfacePoint ReferenceSurface::closest(const Eigen::Vector3d& p, int near) const {
   return impl_->query(p, nullptr, std::numeric_limits<double>::infinity(), near);
@@ -291,13 +292,15 @@ const Eigen::Matrix3Xd& ReferenceSurface::points() const { return impl_->points;
 const std::vector<std::array<int, 3>>& ReferenceSurface::triangles() const {
   return impl_->triangles;
 }
+const FeatureCurves& ReferenceSurface::curves() const { return impl_->curves; }
 double ReferenceSurface::bounding_box_diagonal() const { return impl_->diagonal; }
 bool ReferenceSurface::at_feature(int triangle) const { return impl_->facets[triangle].at_feature; }
 Eigen::Vector3d ReferenceSurface::triangle_normal(int triangle) const {
   return to_eigen(impl_->mesh.normal(TriangleMesh::FaceHandle(triangle)));
 }
 
-ReferenceSurface make_reference_surface(const HexMesh& mesh, double feature_angle_deg) {
+ReferenceSurface make_reference_surface(const HexMesh& mesh, double feature_angle_deg,
+                                        const FeatureOptions& features) {
   std::vector<int> id(mesh.vertex_slots(), -1);
   std::vector<VertexHandle> used;
   std::vector<std::array<int, 3>> triangles;
@@ -315,7 +318,7 @@ ReferenceSurface make_reference_surface(const HexMesh& mesh, double feature_angl
   }
   Eigen::Matrix3Xd points(3, used.size());
   for (std::size_t i = 0; i < used.size(); ++i) points.col(i) = mesh.point(used[i]);
-  return ReferenceSurface(std::move(points), std::move(triangles), feature_angle_deg);
+  return ReferenceSurface(std::move(points), std::move(triangles), feature_angle_deg, features);
 }
 
 }  // namespace hexweft

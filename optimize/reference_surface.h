@@ -14,6 +14,9 @@
 
 #include <Eigen/Core>
 
+#include "optimize/feature_curves.h"
+#include "optimize/features.h"
+
 namespace hexweft {
 
 class HexMesh;
@@ -33,9 +36,10 @@ class ReferenceSurface {
   /// \param points         3 × #points
   /// \param triangles      counter-clockwise from outside
   /// \param feature_angle_deg  (0, 180]: normals are not averaged across edges sharper than this
+  /// \param features  which lines and corners to look for
   /// \throws InputError  without triangles, on a bad index or a coordinate that is not finite
   ReferenceSurface(Eigen::Matrix3Xd points, std::vector<std::array<int, 3>> triangles,
-                   double feature_angle_deg = 40);
+                   double feature_angle_deg = 40, const FeatureOptions& features = {});
 
   /// The closest point; every result is computed in double, Embree only prunes.
   /// \param near  a triangle thought to be close, or -1: makes it faster, never changes the result
@@ -48,6 +52,7 @@ class ReferenceSurface {
 
   const Eigen::Matrix3Xd& points() const;
   const std::vector<std::array<int, 3>>& triangles() const;
+  const FeatureCurves& curves() const;  ///< its feature lines and corners
   /// True if an edge sharper than the feature angle touches the triangle, at a corner at least.
   bool at_feature(int triangle) const;
   Eigen::Vector3d triangle_normal(
@@ -61,6 +66,7 @@ class ReferenceSurface {
 
 /// The boundary of a mesh, each side cut into the triangles (0,1,2) and (2,3,0).
 /// \throws InputError if the mesh has no cells
-ReferenceSurface make_reference_surface(const HexMesh& mesh, double feature_angle_deg = 40);
+ReferenceSurface make_reference_surface(const HexMesh& mesh, double feature_angle_deg = 40,
+                                        const FeatureOptions& features = {});
 
 }  // namespace hexweft

@@ -7,6 +7,8 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
+#include "optimize/feature_assignment.h"
+
 namespace hexweft {
 namespace {
 
@@ -131,6 +133,26 @@ SurfaceGoal goal_on(const TangentPlanes& planes, int vertex, const Eigen::Vector
   return goal;
 }
 
+/// The goal of a vertex that stands for a feature.
+SurfaceGoal goal_on_feature(const FeatureCurves& curves, const FeatureLabel& label, int vertex,
+                            const Eigen::Vector3d& p) {
+  if (label.is_corner()) {
+    return {vertex, curves.corner(label.corner), Eigen::Matrix3d::Identity()};
+  }
+  const CurvePoint on = curves.closest(p, label.line);
+  return {vertex, on.point, Eigen::Matrix3d::Identity() - on.tangent * on.tangent.transpose()};
+}
+
+/// Marks the vertices of quads that have one on a feature.
+std::vector<char> beside_features(const Region& region, const std::vector<FeatureLabel>& labels) {
+  std::vector<char> beside(labels.size(), 0);
+  for (const auto& q : region.quads) {
+    if (std::none_of(q.begin(), q.end(), [&](int v) { return labels[v].is_any(); })) continue;
+    for (int v : q) beside[v] = 1;
+  }
+  return beside;
+}
+
 /// Hexahedra at every free vertex, as one array with offsets.
 struct VertexHexes {
   explicit VertexHexes(const Region& region) : first(region.n_free + 1, 0) {
@@ -166,13 +188,21 @@ std::vector<SurfaceGoal> surface_goals(const Region& region, const ReferenceSurf
     closest.push_back(reference.closest(region.points.col(v), normals.vertex.col(v), near));
     at_feature[v] = reference.at_feature(closest.back().triangle);
   }
+  const std::vector<FeatureLabel> labels =
+      assign_features(region.points, region.quads, region.n_free, reference);
+  const std::vector<char> beside = beside_features(region, labels);
+  for (int v : region.surface) {
+    if (beside[v]) at_feature[v] = 0;
+  }
   std::vector<TangentPlanes> planes = tangent_planes(region, normals, reference, at_feature);
   std::vector<SurfaceGoal> goals;
   goals.reserve(region.surface.size());
   for (std::size_t i = 0; i < region.surface.size(); ++i) {
     const int v = region.surface[i];
     const SurfacePoint& s = closest[i];
-    if (at_feature[v]) {
+    if (labels[v].is_any()) {
+      goals.push_back(goal_on_feature(reference.curves(), labels[v], v, region.points.col(v)));
+    } else if (at_feature[v]) {
       planes[v].take(s.normal, s.point);
       goals.push_back(goal_on(planes[v], v, region.points.col(v), s, normals.vertex.col(v),
                               threshold, reference));

@@ -1,0 +1,91 @@
+#include "optimize/feature_curves.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace hexweft {
+namespace {
+
+constexpr int kStretch = 8;  // segments of a box
+
+}  // namespace
+
+FeatureCurves::FeatureCurves(const Eigen::Matrix3Xd& points, SurfaceFeatures features)
+    : features_(std::move(features)) {
+  for (int v : features_.corners) corners_.emplace_back(points.col(v));
+  for (const FeatureLine& line : features_.lines) {
+    Curve curve;
+    curve.points.emplace_back(points.col(line.points[0]));
+    curve.arc.push_back(0);
+    for (int i = 0; i < line.n_segments(); ++i) {
+      const Eigen::Vector3d from = points.col(line.segment(i)[0]),
+                            to = points.col(line.segment(i)[1]);
+      curve.points.push_back(to);
+      curve.arc.push_back(curve.arc.back() + (to - from).norm());
+      if (i % kStretch == 0) curve.boxes.emplace_back(from);
+      curve.boxes.back().extend(to);
+    }
+    for (const auto& box : curve.boxes) curve.box.extend(box);
+    curves_.push_back(std::move(curve));
+  }
+}
+
+/// Improves `best` where this line comes nearer.
+void FeatureCurves::look_at(int line, const Eigen::Vector3d& p, CurvePoint& best) const {
+  const Curve& curve = curves_[line];
+  const auto n = static_cast<int>(curve.points.size()) - 1;
+  double squared = best.distance * best.distance;
+  if (curve.box.squaredExteriorDistance(p) > squared) return;
+  for (int first = 0; first < n; first += kStretch) {
+    if (curve.boxes[first / kStretch].squaredExteriorDistance(p) > squared) continue;
+    for (int i = first; i < std::min(n, first + kStretch); ++i) {
+      const Eigen::Vector3d along = curve.points[i + 1] - curve.points[i];
+      const double length2 = along.squaredNorm();
+      const double part = (p - curve.points[i]).dot(along) / (length2 > 0 ? length2 : 1);
+      const double t = std::clamp(part, 0.0, 1.0);
+      const Eigen::Vector3d q = curve.points[i] + t * along;
+      const double d = (q - p).squaredNorm();
+      if (d > squared || (d == squared && best.line >= 0)) continue;
+      squared = d;
+      const double arc = curve.arc[i] + t * (curve.arc[i + 1] - curve.arc[i]);
+      best = {q, length2 > 0 ? Eigen::Vector3d(along.normalized()) : best.tangent, std::sqrt(d),
+              arc, line};
+    }
+  }
+}
+
+CurvePoint FeatureCurves::closest(const Eigen::Vector3d& p) const {
+  CurvePoint best;
+  for (int line = 0; line < n_lines(); ++line) look_at(line, p, best);
+  return best;
+}
+
+CurvePoint FeatureCurves::closest(const Eigen::Vector3d& p, int line) const {
+  CurvePoint best;
+  look_at(line, p, best);
+  return best;
+}
+
+std::vector<CurvePoint> FeatureCurves::within(const Eigen::Vector3d& p, double reach) const {
+  std::vector<CurvePoint> found;
+  for (int line = 0; line < n_lines(); ++line) {
+    CurvePoint best;
+    best.distance = reach;
+    look_at(line, p, best);
+    if (best.line >= 0) found.push_back(best);
+  }
+  return found;
+}
+
+CurvePoint FeatureCurves::at(int line, double arc) const {
+  const Curve& curve = curves_[line];
+  const auto next = std::upper_bound(curve.arc.begin(), curve.arc.end() - 1, arc);
+  const auto i = std::max<std::ptrdiff_t>(1, next - curve.arc.begin());
+  const double length = curve.arc[i] - curve.arc[i - 1];
+  const double t = length > 0 ? (arc - curve.arc[i - 1]) / length : 0;
+  const Eigen::Vector3d along = curve.points[i] - curve.points[i - 1];
+  return {curve.points[i - 1] + t * along, along.normalized(), 0, arc, line};
+}
+
+}  // namespace hexweft

@@ -1,0 +1,57 @@
+/// \file
+/// The feature lines of a surface as curves: closest points, arc length, tangents.
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "optimize/features.h"
+
+namespace hexweft {
+
+/// A point of a feature line.
+struct CurvePoint {
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  Eigen::Vector3d tangent = Eigen::Vector3d::UnitX();         ///< length 1, in the line's direction
+  double distance = std::numeric_limits<double>::infinity();  ///< model units, from the query
+  double at = 0;  ///< arc length from the line's first point, model units
+  int line = -1;  ///< of equally close ones the lowest; -1 if there is none
+};
+
+/// Stretches of a few segments have a box each, and lines have one: queries pass over what is too
+/// far. Const calls may run at the same time on several threads.
+class FeatureCurves {
+ public:
+  /// \param points  3 × #points, model units
+  FeatureCurves(const Eigen::Matrix3Xd& points, SurfaceFeatures features);
+
+  const SurfaceFeatures& features() const { return features_; }
+  int n_lines() const { return static_cast<int>(features_.lines.size()); }
+  bool closed(int line) const { return features_.lines[line].closed; }
+  double length(int line) const { return curves_[line].arc.back(); }  ///< model units
+  const Eigen::Vector3d& corner(int i) const { return corners_[i]; }
+
+  CurvePoint closest(const Eigen::Vector3d& p) const;
+  CurvePoint closest(const Eigen::Vector3d& p, int line) const;
+  /// The closest point of each line within reach (model units), lines ascending.
+  std::vector<CurvePoint> within(const Eigen::Vector3d& p, double reach) const;
+  CurvePoint at(int line, double arc) const;  ///< \param arc  in [0, length(line)]
+
+ private:
+  struct Curve {
+    std::vector<Eigen::Vector3d> points;     // #segments + 1; of a closed line the first again
+    std::vector<double> arc;                 // at each of them
+    std::vector<Eigen::AlignedBox3d> boxes;  // of a few segments each
+    Eigen::AlignedBox3d box;
+  };
+  void look_at(int line, const Eigen::Vector3d& p, CurvePoint& best) const;
+
+  SurfaceFeatures features_;
+  std::vector<Curve> curves_;
+  std::vector<Eigen::Vector3d> corners_;
+};
+
+}  // namespace hexweft

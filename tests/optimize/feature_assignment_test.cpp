@@ -1,0 +1,107 @@
+// Feature lines found again as chains of mesh edges: finer, coarser, moved and thin meshes.
+#include "optimize/feature_assignment.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/optimize/test_meshes.h"
+
+namespace hexweft {
+namespace {
+
+struct Count {
+  int lines = 0, corners = 0;
+};
+
+Count count(const std::vector<FeatureLabel>& labels) {
+  Count n;
+  for (const FeatureLabel& l : labels) {
+    n.lines += l.is_line() ? 1 : 0;
+    n.corners += l.is_corner() ? 1 : 0;
+    EXPECT_FALSE(l.is_line() && l.is_corner());
+  }
+  return n;
+}
+
+const Eigen::AlignedBox3d kBox(Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 1, 1));
+
+TEST(FeatureAssignment, EveryVertexOnAnEdgeOfACubeHasItsLine) {
+  const HexMesh cube = make_grid({4, 4, 4}, kBox);
+  const ReferenceSurface reference = make_reference_surface(cube);
+  const auto labels = feature_of(reference, cube);
+  ASSERT_EQ(static_cast<int>(labels.size()), cube.vertex_slots());
+  for (VertexHandle v : cube.vertices()) {
+    int at_end = 0;
+    for (double x : cube.point(v)) at_end += x == 0 || x == 1 ? 1 : 0;
+    EXPECT_EQ(labels[v.idx].is_corner(), at_end == 3);
+    EXPECT_EQ(labels[v.idx].is_line(), at_end == 2);
+    if (at_end < 2) continue;
+    EXPECT_LT(reference.curves().closest(cube.point(v)).distance, 1e-15);
+  }
+}
+
+TEST(FeatureAssignment, HoldsForCoarserMeshesWithMovedVertices) {
+  const ReferenceSurface reference = make_reference_surface(make_grid({12, 12, 12}, kBox));
+  for (unsigned seed : {1, 2, 3}) {
+    for (int n : {2, 4}) {
+      HexMesh coarse = make_grid({n, n, n}, kBox);
+      const auto exact = feature_of(reference, coarse);
+      perturb(coarse, 0.12 / n, true, seed);
+      const auto labels = feature_of(reference, coarse);
+      EXPECT_EQ(count(labels).corners, 8);
+      EXPECT_EQ(count(labels).lines, 12 * (n - 1));
+      EXPECT_EQ(labels, exact);
+    }
+  }
+}
+
+TEST(FeatureAssignment, FollowsClosedLines) {
+  const ReferenceSurface reference =
+      make_reference_surface(make_o_grid({.n_core = 8, .n_layers = 8}));
+  const HexMesh coarse = make_o_grid({.n_core = 3, .n_layers = 3});
+  const Count n = count(feature_of(reference, coarse));
+  EXPECT_EQ(n.lines, 2 * 12);
+  EXPECT_EQ(n.corners, 0);
+}
+
+TEST(FeatureAssignment, KeepsTheSidesOfAThinPlateApart) {
+  const Eigen::AlignedBox3d box(Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 1, 0.02));
+  HexMesh plate = make_grid({8, 8, 1}, box);
+  const ReferenceSurface reference = make_reference_surface(plate);
+  const auto exact = feature_of(reference, plate);
+  EXPECT_EQ(count(exact).lines, 8 * 7);
+  EXPECT_EQ(count(exact).corners, 8);
+  perturb(plate, 0.004, true, 5);
+  EXPECT_EQ(feature_of(reference, plate), exact);
+}
+
+TEST(FeatureAssignment, FindsNothingOnASmoothSurface) {
+  const HexMesh ball = make_ball(8);
+  const Count n = count(feature_of(make_reference_surface(ball), ball));
+  EXPECT_EQ(n.lines + n.corners, 0);
+}
+
+TEST(FeatureAssignment, PassesOverDeletedVertices) {
+  HexMesh cube = make_grid({3, 3, 3}, kBox);
+  const ReferenceSurface reference = make_reference_surface(cube);
+  cube.delete_cell(CellHandle(0));
+  const auto labels = feature_of(reference, cube);
+  EXPECT_EQ(static_cast<int>(labels.size()), cube.vertex_slots());
+  EXPECT_EQ(count(labels).corners, 7);
+}
+
+TEST(FeatureAssignment, LinesGoOnBeyondTheRimOfARegion) {
+  const HexMesh bar = make_grid({10, 2, 2});
+  const ReferenceSurface reference = make_reference_surface(bar);
+  std::vector<CellHandle> middle;
+  for (int layer = 0; layer < 4; ++layer) {
+    for (int x = 3; x < 7; ++x) middle.emplace_back(x + 10 * layer);
+  }
+  const Region region = make_region(bar, middle);
+  const auto labels = assign_features(region.points, region.quads, region.n_free, reference);
+  int on_line = 0;
+  for (int v : region.surface) on_line += labels[v].is_line() ? 1 : 0;
+  EXPECT_EQ(on_line, 4 * 3);
+}
+
+}  // namespace
+}  // namespace hexweft

@@ -1,0 +1,115 @@
+// Goals of surface vertices: planes, lines, corners; how far vertices move to them.
+#include "optimize/surface_constraint.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "optimize/hausdorff.h"
+#include "optimize/local_parametrization.h"
+#include "tests/optimize/test_meshes.h"
+
+namespace hexweft {
+namespace {
+
+const Eigen::AlignedBox3d kBox(Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 1, 1));
+
+int ends(const Eigen::Vector3d& p, double tolerance) {
+  int n = 0;
+  for (double x : p) n += std::abs(x) < tolerance || std::abs(x - 1) < tolerance ? 1 : 0;
+  return n;
+}
+
+TEST(SurfaceConstraint, VerticesOfACubeSlideOnFacesAndEdgesAndStayInCorners) {
+  const HexMesh cube = make_grid({5, 5, 5}, kBox);
+  const ReferenceSurface reference = make_reference_surface(make_grid({9, 9, 9}, kBox));
+  HexMesh moved = cube;
+  perturb(moved, 0.02, true, 7);
+  for (auto treatment : {SurfaceTreatment::project, SurfaceTreatment::fit}) {
+    const Region region = make_region(moved, all_cells(moved));
+    const auto goals = surface_goals(region, reference, {.treatment = treatment});
+    ASSERT_EQ(goals.size(), region.surface.size());
+    for (std::size_t i = 0; i < goals.size(); ++i) {
+      ASSERT_EQ(goals[i].vertex, region.surface[i]);
+      const int n = ends(cube.point(region.vertices[goals[i].vertex]), 1e-12);
+      EXPECT_NEAR(goals[i].fixed.trace(), n, 1e-9);
+      EXPECT_LT((goals[i].fixed * goals[i].fixed - goals[i].fixed).norm(), 1e-9);
+      if (n > 1 || treatment == SurfaceTreatment::project) {
+        EXPECT_GE(ends(goals[i].point, 1e-9), n);
+      }
+    }
+  }
+}
+
+TEST(SurfaceConstraint, WithoutLinesTheTangentPlanesTellEdgesAndCorners) {
+  HexMesh cube = make_grid({5, 5, 5}, kBox);
+  const ReferenceSurface reference = make_reference_surface(cube, 40, {.mode = FeatureMode::off});
+  const Region region = make_region(cube, all_cells(cube));
+  for (const SurfaceGoal& goal : surface_goals(region, reference, {})) {
+    EXPECT_NEAR(goal.fixed.trace(), ends(region.points.col(goal.vertex), 1e-12), 1e-9);
+  }
+}
+
+TEST(SurfaceConstraint, AVertexBesideALineStaysOnItsOwnFace) {
+  // Rows of vertices a hundredth away from the cube's edges.
+  HexMesh cube = make_grid({6, 6, 6}, kBox);
+  const ReferenceSurface reference = make_reference_surface(cube);
+  for (VertexHandle v : cube.vertices()) {
+    Eigen::Vector3d p = cube.point(v);
+    for (double& x : p) {
+      if (std::abs(x - 1.0 / 6) < 1e-9) x = 0.01;
+      if (std::abs(x - 5.0 / 6) < 1e-9) x = 0.99;
+    }
+    cube.set_point(v, p);
+  }
+  const Region region = make_region(cube, all_cells(cube));
+  for (const SurfaceGoal& goal : surface_goals(region, reference, {})) {
+    EXPECT_NEAR(goal.fixed.trace(), ends(region.points.col(goal.vertex), 1e-12), 1e-9);
+    EXPECT_LT((goal.point - region.points.col(goal.vertex)).norm(), 1e-12);
+  }
+}
+
+TEST(SurfaceConstraint, AMovedCylinderComesBackToItsRims) {
+  const HexMesh cylinder = make_o_grid({.n_core = 4, .n_ring = 3, .n_layers = 6});
+  const ReferenceSurface reference = make_reference_surface(cylinder);
+  HexMesh moved = cylinder;
+  perturb(moved, 0.03, true, 3);
+  ASSERT_TRUE(parametrize(moved, all_cells(moved), reference).valid());
+  EXPECT_LT(hausdorff_distance(moved, reference).ratio(), 0.012);
+  for (const FeatureLine& line : reference.curves().features().lines) EXPECT_TRUE(line.closed);
+  for (VertexHandle v : cylinder.vertices()) {
+    const Eigen::Vector3d p = cylinder.point(v);
+    const bool rim = p.head<2>().norm() > 1 - 1e-9 && std::abs(std::abs(p[2] - 1) - 1) < 1e-9;
+    if (!rim) continue;
+    EXPECT_LT(reference.curves().closest(moved.point(v)).distance, 1e-9);
+  }
+}
+
+TEST(SurfaceConstraint, PullsScaleWithTheEdgeLength) {
+  const HexMesh cube = make_grid({2, 2, 2}, kBox);
+  const ReferenceSurface reference = make_reference_surface(cube);
+  const Region region = make_region(cube, all_cells(cube));
+  const auto goals = surface_goals(region, reference, {});
+  const auto pulls = surface_pulls(region, goals, 8);
+  ASSERT_EQ(pulls.size(), goals.size());
+  for (std::size_t i = 0; i < pulls.size(); ++i) {
+    EXPECT_EQ(pulls[i].vertex, goals[i].vertex);
+    EXPECT_LT((pulls[i].metric - 8 / 0.25 * goals[i].fixed).norm(), 1e-9);
+  }
+}
+
+TEST(SurfaceConstraint, AMoveEndsBeforeAHexahedronInverts) {
+  const HexMesh cube = make_grid({3, 3, 3}, kBox);
+  Region region = make_region(cube, all_cells(cube));
+  std::vector<SurfaceGoal> goals;
+  for (int v : region.surface) {  // everything through the opposite side
+    const Eigen::Vector3d p = region.points.col(v);
+    goals.push_back({v, Eigen::Vector3d(0.5, 0.5, 0.5) - 2 * (p - Eigen::Vector3d(0.5, 0.5, 0.5)),
+                     Eigen::Matrix3d::Identity()});
+  }
+  EXPECT_LT(move_to_goals(region, goals, 0.15), 1);
+  for (double sj : scaled_jacobians(region.points, region.hexes)) EXPECT_GE(sj, 0.15);
+}
+
+}  // namespace
+}  // namespace hexweft
