@@ -18,15 +18,22 @@ struct Candidate {
 };
 
 /// All sheets and chords of a base complex, those of each kind that pass the cheap filters in order
-/// of rising energy (ties by index).
+/// of rising energy (ties by index). The energy is what the ranking goes by: SheetTerms::cost() and
+/// ChordTerms::cost().
 struct CandidateQueues {
   std::vector<Sheet> sheets;
+  std::vector<SheetTerms> sheet_terms;
   std::vector<Chord> chords;
   std::vector<ChordTerms> chord_terms;
   std::vector<Candidate> sheet_queue, chord_queue;
 };
 CandidateQueues make_queues(const HexMesh& mesh, const BaseComplex& bc,
-                            const SimplifyOptions& options);
+                            const SimplifyOptions& options, Ranking ranking = Ranking::weighted);
+
+/// The filters of a chord that need no plan; Refusal::none is no promise.
+/// \param sheets  all of this base complex
+Refusal filter_chord(const BaseComplex& bc, const Chord& chord, const ChordTerms& terms,
+                     const std::vector<Sheet>& sheets, const SimplifyOptions& options);
 
 /// Remembers which collapses failed. A candidate is known by the cells it would remove; after a
 /// failure it waits for a growing number of accepted steps before it is tried again, and after

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <Eigen/Geometry>
@@ -35,10 +36,17 @@ int singular_groups(const BaseComplex& bc, const Chord& chord) {
   return static_cast<int>(std::count(singular.begin(), singular.end(), true));
 }
 
-// Mean length of the diagonals that fold, over that of those that stay; and the curvature's spread.
-double geometry_term(const HexMesh& mesh, const BaseComplex& bc, const Chord& chord,
-                     Diagonal diagonal, const std::vector<double>& curvature, double mean_edge) {
-  double main = 0, sub = 0, sum = 0, sum_sq = 0;
+// What the diagonals of a chord and the curvature along it amount to.
+struct ChordGeometry {
+  double least = std::numeric_limits<double>::infinity();  // of the diagonals that fold
+  double main = 0, sub = 0;        // summed lengths of those that fold, of those that stay
+  double curvature_deviation = 0;  // standard deviation at the edges that fall together
+};
+
+ChordGeometry measure(const HexMesh& mesh, const BaseComplex& bc, const Chord& chord,
+                      Diagonal diagonal, const std::vector<double>& curvature, double mean_edge) {
+  ChordGeometry g;
+  double sum = 0, sum_sq = 0;
   int n = 0;
   const auto vertex = [&](int edge, int end) { return bc.vertices[bc.edges[edge].ends[end]]; };
   for (const ChordLink& link : chord.links) {
@@ -46,8 +54,10 @@ double geometry_term(const HexMesh& mesh, const BaseComplex& bc, const Chord& ch
     const auto middle = [&](int edge) -> Eigen::Vector3d {
       return 0.5 * (mesh.point(vertex(edge, 0)) + mesh.point(vertex(edge, 1)));
     };
-    main += (middle(e.a) - middle(e.b)).norm();
-    sub += (middle(e.c) - middle(e.d)).norm();
+    const double main = (middle(e.a) - middle(e.b)).norm();
+    g.least = std::min(g.least, main);
+    g.main += main;
+    g.sub += (middle(e.c) - middle(e.d)).norm();
     for (int edge : {e.a, e.b}) {
       for (int end : {0, 1}) {
         // Relative to the mesh, so that the term has no unit.
@@ -58,8 +68,13 @@ double geometry_term(const HexMesh& mesh, const BaseComplex& bc, const Chord& ch
       }
     }
   }
-  const double variance = n > 1 ? std::max(0.0, (sum_sq - sum * sum / n) / (n - 1)) : 0.0;
-  return sub > 0 ? main / sub * std::sqrt(variance) : main > 0 ? 1e3 : 0.0;
+  if (n > 1) g.curvature_deviation = std::sqrt(std::max(0.0, (sum_sq - sum * sum / n) / (n - 1)));
+  return g;
+}
+
+// Mean length of the diagonals that fold, over that of those that stay; and the curvature's spread.
+double geometry_term(const ChordGeometry& g) {
+  return g.sub > 0 ? g.main / g.sub * g.curvature_deviation : g.main > 0 ? 1e3 : 0.0;
 }
 
 }  // namespace
@@ -96,7 +111,11 @@ std::vector<ChordTerms> rank_chords(const HexMesh& mesh, const BaseComplex& bc,
     t.deviation = std::min(first, second);
     t.singular_groups = singular_groups(bc, chord);
     t.valence = w.beta * t.deviation;
-    t.geometry = geometry_term(mesh, bc, chord, t.diagonal, curvature, mean_edge);
+    const ChordGeometry g = measure(mesh, bc, chord, t.diagonal, curvature, mean_edge);
+    t.thickness =
+        (w.min_width * g.least + w.mean_width * g.main / static_cast<double>(chord.links.size())) /
+        mean_edge;
+    t.geometry = geometry_term(g);
     t.energy =
         w.k_distortion * (1 - std::exp(-t.geometry)) + w.k_valence * (1 - std::exp(-t.valence));
     result.push_back(t);

@@ -1,7 +1,12 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <span>
 
+#include <fmt/format.h>
+
+#include "ovm/errors.h"
 #include "ovm/quality.h"
 #include "simplify/disjoint_sets.h"
 #include "simplify/rank.h"
@@ -106,8 +111,8 @@ double middle_gain(const BaseComplex& bc, const Sheet& sheet) {
   return sum;
 }
 
-double width_term(const HexMesh& mesh, const BaseComplex& bc, const Sheet& sheet, double mean_edge,
-                  const RankingWeights& w) {
+double thickness(const HexMesh& mesh, const BaseComplex& bc, const Sheet& sheet, double mean_edge,
+                 const RankingWeights& w) {
   double least = std::numeric_limits<double>::infinity(), sum = 0;
   for (int e : sheet.edges) {
     const double l = length(mesh, bc, bc.edges[e]);
@@ -115,7 +120,7 @@ double width_term(const HexMesh& mesh, const BaseComplex& bc, const Sheet& sheet
     sum += l;
   }
   const double mean = sum / static_cast<double>(sheet.edges.size());
-  return std::cbrt((w.min_width * least + w.mean_width * mean) / mean_edge);
+  return (w.min_width * least + w.mean_width * mean) / mean_edge;
 }
 
 double distortion_term(const BaseComplex& bc, const Sheet& sheet,
@@ -130,6 +135,24 @@ double distortion_term(const BaseComplex& bc, const Sheet& sheet,
 }
 
 }  // namespace
+
+void validate(const RankingWeights& w) {
+  const auto expect = [](const char* name, double value) {
+    if (!(value >= 0) || !std::isfinite(value)) {
+      throw InputError(fmt::format("{} = {}, expected a finite number >= 0", name, value));
+    }
+  };
+  expect("k_valence", w.k_valence);
+  expect("k_width", w.k_width);
+  expect("k_distortion", w.k_distortion);
+  expect("beta", w.beta);
+  expect("min_width", w.min_width);
+  expect("mean_width", w.mean_width);
+  expect("distortion_threshold", w.distortion_threshold);
+  if (w.min_width + w.mean_width == 0) {
+    throw InputError("min_width = mean_width = 0, expected one of them > 0");
+  }
+}
 
 std::vector<double> shape_differences(const HexMesh& mesh) {
   std::vector<double> shape(mesh.cell_slots(), 0), result(mesh.cell_slots(), 0);
@@ -159,7 +182,8 @@ std::vector<SheetTerms> rank_sheets(const HexMesh& mesh, const BaseComplex& bc,
   for (const Sheet& s : sheets) {
     SheetTerms t;
     t.valence = (dm - w.beta * (groups.gain(s) + middle_gain(bc, s))) / dm;
-    t.width = width_term(mesh, bc, s, mean_edge, w);
+    t.thickness = thickness(mesh, bc, s, mean_edge, w);
+    t.width = std::cbrt(t.thickness);
     t.distortion = distortion_term(bc, s, differences, w.distortion_threshold);
     t.energy = w.k_distortion * (1 - std::exp(-t.distortion)) +
                w.k_width * (1 - std::exp(-t.width)) + w.k_valence * (1 - std::exp(-t.valence));

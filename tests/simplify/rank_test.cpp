@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 
+#include "ovm/errors.h"
 #include "simplify/candidates.h"
 #include "tests/simplify/test_meshes.h"
 
@@ -59,6 +60,17 @@ TEST(RankSheets, WidthMixesTheNarrowestPlaceWithTheMean) {
     EXPECT_NEAR(r.terms[i].width, std::cbrt((0.7 * 1 + 0.3 * 1.5) / mean_edge), 1e-12);
   }
   EXPECT_EQ(n, 1);
+}
+
+TEST(RankSheets, ThicknessIsTheMixOfLengthsInMeanEdges) {
+  const Ranked r(make_grid({4, 3, 2}));
+  for (std::size_t i = 0; i < r.terms.size(); ++i) {
+    EXPECT_NEAR(r.terms[i].thickness, r.sheets[i].width, 1e-12);
+    EXPECT_EQ(r.terms[i].cost(Ranking::thickness), r.terms[i].thickness);
+    EXPECT_EQ(r.terms[i].cost(Ranking::weighted), r.terms[i].energy);
+  }
+  const Ranked least(make_grid({4, 3, 2}), {.min_width = 2, .mean_width = 0});
+  EXPECT_NEAR(least.terms[0].thickness, 2 * r.terms[0].thickness, 1e-12);
 }
 
 TEST(RankSheets, ValenceTermOfAPillow) {
@@ -191,6 +203,32 @@ TEST(RankChords, CubesChordsFoldEqualEdges) {
     EXPECT_EQ(t.diagonal, Diagonal::first);
     EXPECT_NEAR(t.energy, 0.4 * (1 - std::exp(-1.67 * 2)), 1e-9);
   }
+}
+
+TEST(RankChords, ThicknessIsTheLengthOfTheDiagonalsThatFold) {
+  const HexMesh mesh = make_grid({1, 1, 1});
+  const BaseComplex bc = extract_base_complex(mesh);
+  for (const ChordTerms& t :
+       rank_chords(mesh, bc, extract_chords(bc), boundary_gaussian_curvature(mesh), {})) {
+    EXPECT_NEAR(t.thickness, std::sqrt(2.0), 1e-12);
+    EXPECT_EQ(t.cost(Ranking::thickness), t.thickness);
+    EXPECT_EQ(t.cost(Ranking::weighted), t.energy);
+  }
+}
+
+TEST(RankingWeightsValidation, NamesTheWeight) {
+  EXPECT_NO_THROW(validate(octree_weights()));
+  EXPECT_NO_THROW(validate(polycube_weights()));
+  RankingWeights w;
+  w.k_width = -1;
+  try {
+    validate(w);
+    FAIL() << "a negative weight passed";
+  } catch (const InputError& e) {
+    EXPECT_STREQ(e.what(), "k_width = -1, expected a finite number >= 0");
+  }
+  EXPECT_THROW(validate({.min_width = 0, .mean_width = 0}), InputError);
+  EXPECT_THROW(validate({.beta = std::nan("")}), InputError);
 }
 
 TEST(RankChords, TakesTheDiagonalThatLeavesTheSmallerError) {

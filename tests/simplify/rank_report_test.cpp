@@ -1,0 +1,68 @@
+// The list of candidates with their terms and refusals.
+#include "simplify/rank_report.h"
+
+#include <algorithm>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/simplify/test_meshes.h"
+
+namespace hexweft {
+namespace {
+
+template <class Ranked>
+void expect_passing_first_and_sorted(const std::vector<Ranked>& list, Ranking ranking) {
+  for (std::size_t i = 1; i < list.size(); ++i) {
+    const bool passes = list[i].refusal == Refusal::none;
+    const bool before = list[i - 1].refusal == Refusal::none;
+    EXPECT_LE(passes, before);
+    if (passes == before) {
+      EXPECT_LE(list[i - 1].terms.cost(ranking), list[i].terms.cost(ranking));
+    }
+  }
+}
+
+TEST(RankReport, ListsEverySheetAndChordInOrder) {
+  const HexMesh mesh = make_octree_like(Shape::blob, 8, 2);
+  const BaseComplex bc = extract_base_complex(mesh);
+  for (const Ranking ranking : {Ranking::weighted, Ranking::thickness}) {
+    const RankReport r = report_ranking(mesh, bc, {}, ranking);
+    EXPECT_EQ(r.sheets.size(), extract_sheets(bc).size());
+    EXPECT_EQ(r.chords.size(), extract_chords(bc).size());
+    expect_passing_first_and_sorted(r.sheets, ranking);
+    expect_passing_first_and_sorted(r.chords, ranking);
+    EXPECT_EQ(r.sheets[0].refusal, Refusal::none);
+  }
+}
+
+TEST(RankReport, SaysWhyAGridCannotBeCollapsed) {
+  // Nothing would be left of a single cell.
+  const HexMesh mesh = make_grid({1, 1, 1});
+  const RankReport r = report_ranking(mesh, extract_base_complex(mesh), {});
+  ASSERT_EQ(r.sheets.size(), 3u);
+  for (const RankedSheet& s : r.sheets) {
+    EXPECT_NE(s.refusal, Refusal::none);
+    EXPECT_EQ(s.cells, 1);
+    EXPECT_EQ(s.width, 1);
+  }
+}
+
+TEST(RankReport, JsonAndTableSayTheSame) {
+  const HexMesh mesh = make_pillowed_grid(3);
+  const RankReport r = report_ranking(mesh, extract_base_complex(mesh), {});
+  const auto j = r.json();
+  EXPECT_EQ(j["ranking"], "weighted");
+  ASSERT_EQ(j["sheets"].size(), r.sheets.size());
+  EXPECT_EQ(j["sheets"][0]["id"], r.sheets[0].id);
+  EXPECT_EQ(j["sheets"][0]["kind"], name(r.sheets[0].kind));
+  EXPECT_EQ(j["sheets"][0]["refusal"], "none");
+  const auto is_closed = [](const auto& s) { return s["kind"] == "closed"; };
+  EXPECT_EQ(std::count_if(j["sheets"].begin(), j["sheets"].end(), is_closed), 1);
+  const std::string table = r.table(2);
+  EXPECT_THAT(table, testing::HasSubstr("10 sheets, "));
+  EXPECT_THAT(table, testing::HasSubstr("and 8 more"));
+}
+
+}  // namespace
+}  // namespace hexweft
