@@ -6,6 +6,7 @@
 
 #include "io/file.h"
 #include "io/formats.h"
+#include "ovm/topology_check.h"
 #include "tools/surface_input.h"
 
 namespace hexweft::cli {
@@ -144,6 +145,17 @@ HexMesh Program::read_mesh(const ReadOptions& options) {
   return mesh;
 }
 
+HexMesh Program::read_valid_mesh() {
+  HexMesh mesh = read_mesh();
+  if (mesh.n_cells() == 0) throw InputError("the mesh has no cells");
+  for (const TopologyViolation& v : check_topology(mesh)) {
+    if (severity(v.defect) == Severity::invalid) {
+      throw InputError("the mesh is not valid: " + v.message);
+    }
+  }
+  return mesh;
+}
+
 ReferenceSurface Program::read_surface(const std::string& path) {
   std::vector<std::string> notes;
   ReferenceSurface surface = read_surface_input(path, notes);
@@ -162,9 +174,11 @@ void Program::write_json(const nlohmann::ordered_json& report) {
   write_file(json_path_, report.dump(2, ' ', false, Handler::replace) + "\n");
 }
 
-void Program::say(const std::string& line) {
+void Program::say(const std::string& line) { say_text(line + '\n'); }
+
+void Program::say_text(const std::string& lines) {
   const bool taken = output_path_ == "-" || json_path_ == "-";
-  (taken ? std::cerr : std::cout) << line << '\n';
+  (taken ? std::cerr : std::cout) << lines;
 }
 
 }  // namespace hexweft::cli

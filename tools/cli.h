@@ -54,6 +54,8 @@ class Program {
 
   // ---- For the body ----
   HexMesh read_mesh(const ReadOptions& options = {});  ///< the INPUT; notes go to standard error
+  /// The INPUT of a program that needs a base complex. \throws InputError naming what is wrong
+  HexMesh read_valid_mesh();
   /// Of a triangle file, or the boundary of a mesh (surface_input.h); notes go to standard error.
   ReferenceSurface read_surface(const std::string& path);
   void write_mesh(const HexMesh& mesh);  ///< to the --output
@@ -61,13 +63,15 @@ class Program {
   void write_json(const nlohmann::ordered_json& report);  ///< if --json asks for it
   /// A line for the user, on standard output, or on standard error if that carries a result.
   void say(const std::string& line);
+  void say_text(const std::string& lines);  ///< the same for text that ends its own lines
+  /// Says on standard error in one sentence what failed. \return `code`
+  int fail(int code, const std::string& message) const;
+  void note(const std::string& text) const;  ///< a remark on standard error
   const std::string& input_path() const { return input_path_; }
   const std::string& output_path() const { return output_path_; }
 
  private:
   void check_paths() const;
-  int fail(int code, const std::string& message) const;
-  void note(const std::string& text) const;
 
   CLI::App app_;
   std::string name_;

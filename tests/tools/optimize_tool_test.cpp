@@ -1,0 +1,93 @@
+// hexweft-optimize as a stranger meets it.
+#include <nlohmann/json.hpp>
+
+#include "io/hex_mesh_io.h"
+#include "ovm/generators.h"
+#include "ovm/quality.h"
+#include "tests/tools/run_tool.h"
+
+namespace hexweft::test {
+namespace {
+
+using Json = nlohmann::json;
+using OptimizeTool = ToolTest;
+
+// A grid of unit cells some of whose inner vertices lie where hexahedra are inverted.
+HexMesh make_tangled_grid() {
+  HexMesh mesh = make_grid({5, 5, 5});
+  for (const VertexHandle v : mesh.vertices()) {
+    const Eigen::Vector3d p = mesh.point(v);
+    if (p == Eigen::Vector3d(2, 2, 2)) mesh.set_point(v, {3.4, 2.2, 2.1});
+    if (p == Eigen::Vector3d(3, 3, 2)) mesh.set_point(v, {3.1, 4.4, 2.2});
+  }
+  return mesh;
+}
+
+TEST_F(OptimizeTool, ImprovesAnOctreeLikeMeshOnItsSurface) {
+  ASSERT_EQ(run("hexweft-generate octree-like --resolution 8 -o in.vtk").exit_code, 0);
+  const ToolRun result = run("hexweft-optimize in.vtk -o out.vtk --json r.json --local-trials 20");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  const Json j = Json::parse(read_file(file("r.json")));
+  EXPECT_EQ(j["energy"], "symmetric-dirichlet");
+  EXPECT_GE(j["after"]["min_scaled_jacobian"], j["before"]["min_scaled_jacobian"]);
+  EXPECT_GT(j["after"]["mean_scaled_jacobian"], j["before"]["mean_scaled_jacobian"]);
+  EXPECT_LE(j["after"]["hausdorff_ratio"], 0.005);
+  const HexMesh before = read_hex_mesh(file("in.vtk")), after = read_hex_mesh(file("out.vtk"));
+  EXPECT_EQ(before.n_cells(), after.n_cells());
+  EXPECT_EQ(min_scaled_jacobian(after), j["after"]["min_scaled_jacobian"]);
+  // What info measures of the file is what the report says.
+  const Json info = Json::parse(run("hexweft-info out.vtk --json -").out);
+  EXPECT_EQ(info["mean_scaled_jacobian"], j["after"]["mean_scaled_jacobian"]);
+}
+
+TEST_F(OptimizeTool, Untangles) {
+  const HexMesh tangled = make_tangled_grid();
+  ASSERT_LT(min_scaled_jacobian(tangled), 0);
+  write_hex_mesh(file("in.vtk"), tangled);
+  const ToolRun result = run("hexweft-optimize in.vtk -o out.vtk --untangle");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_GT(min_scaled_jacobian(read_hex_mesh(file("out.vtk"))), 0);
+  // A mesh without inverted hexahedra comes back as it is.
+  ASSERT_EQ(run("hexweft-optimize out.vtk -o again.vtk --untangle").exit_code, 0);
+  EXPECT_EQ(read_file(file("again.vtk")), read_file(file("out.vtk")));
+}
+
+TEST_F(OptimizeTool, ReportsWhatStaysInverted) {
+  write_hex_mesh(file("in.vtk"), make_tangled_grid());
+  const ToolRun result = run("hexweft-optimize in.vtk -o out.vtk --untangle --iterations 0");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, IsSentenceOf("hexweft-optimize"));
+  EXPECT_THAT(result.err, testing::HasSubstr("still inverted"));
+}
+
+TEST_F(OptimizeTool, StaysOnAnotherSurface) {
+  ASSERT_EQ(run("hexweft-generate octree-like --resolution 6 -o coarse.vtk").exit_code, 0);
+  ASSERT_EQ(run("hexweft-generate octree-like --resolution 14 -o fine.vtk").exit_code, 0);
+  const ToolRun result =
+      run("hexweft-optimize coarse.vtk -o out.vtk --surface fine.vtk --hausdorff 0.05 "
+          "--local-trials 5 --json -");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const Json j = Json::parse(result.out);
+  const Json distance = Json::parse(run("hexweft-distance out.vtk fine.vtk --json -").out);
+  EXPECT_EQ(j["after"]["hausdorff_ratio"], distance["ratio"]);
+}
+
+TEST_F(OptimizeTool, RefusesWhatItCannotUse) {
+  ASSERT_EQ(run("hexweft-generate grid -o in.vtk").exit_code, 0);
+  for (const auto& [arguments, code] : {std::pair("in.vtk", 2),
+                                        {"in.vtk -o out.vtk --energy no-such", 2},
+                                        {"in.vtk -o out.vtk --hausdorff 0", 2},
+                                        {"in.vtk -o out.vtk --iterations -1", 2},
+                                        {"in.vtk -o out.vtk --surface -", 2},
+                                        {"in.vtk -o out.vtk --surface missing.stl", 3}}) {
+    SCOPED_TRACE(arguments);
+    const ToolRun result = run(std::string("hexweft-optimize ") + arguments);
+    EXPECT_EQ(result.exit_code, code);
+    EXPECT_THAT(result.err, IsSentenceOf("hexweft-optimize"));
+  }
+  EXPECT_EQ(n_files(), 1);
+}
+
+}  // namespace
+}  // namespace hexweft::test

@@ -1,0 +1,205 @@
+// hexweft-rank, -structure, -collapse and -refine as a stranger meets them.
+#include <algorithm>
+#include <set>
+
+#include <nlohmann/json.hpp>
+
+#include "io/hex_mesh_io.h"
+#include "ovm/property.h"
+#include "ovm/quality.h"
+#include "ovm/topology_check.h"
+#include "tests/tools/run_tool.h"
+
+namespace hexweft::test {
+namespace {
+
+using Json = nlohmann::json;
+
+class StructureTools : public ToolTest {
+ protected:
+  void make(const std::string& arguments) const {
+    const ToolRun made = run("hexweft-generate " + arguments + " -o in.vtk");
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+  }
+  Json info(const std::string& mesh) const {
+    return Json::parse(run("hexweft-info " + mesh + " --json -").out);
+  }
+};
+using RankTool = StructureTools;
+using StructureTool = StructureTools;
+using CollapseTool = StructureTools;
+using RefineTool = StructureTools;
+
+TEST_F(RankTool, ListsCandidatesWithTheirTerms) {
+  make("octree-like --resolution 6");
+  const ToolRun text = run("hexweft-rank in.vtk --list 3");
+  ASSERT_EQ(text.exit_code, 0) << text.err;
+  EXPECT_THAT(text.out, testing::HasSubstr("sheets, "));
+  EXPECT_THAT(text.out, testing::HasSubstr("thickness"));
+  const ToolRun result = run("hexweft-rank in.vtk --json -");
+  const Json j = Json::parse(result.out);
+  EXPECT_EQ(j["ranking"], "weighted");
+  ASSERT_FALSE(j["sheets"].empty());
+  ASSERT_FALSE(j["chords"].empty());
+  for (const char* key : {"energy", "valence_term", "width_term", "distortion_term", "thickness"}) {
+    EXPECT_TRUE(j["sheets"][0][key].is_number()) << key;
+  }
+  std::set<std::string> refusals;
+  for (const Json& c : j["chords"]) refusals.insert(c["refusal"].get<std::string>());
+  EXPECT_GT(refusals.size(), 1u);
+}
+
+TEST_F(RankTool, WeightsAndOrderAreOptions) {
+  make("grid --resolution 2");
+  const auto first_sheet = [&](const std::string& options) {
+    return Json::parse(run("hexweft-rank in.vtk --json - " + options).out)["sheets"][0];
+  };
+  const double octree = first_sheet("")["energy"],
+               polycube = first_sheet("--preset polycube")["energy"];
+  EXPECT_NE(octree, polycube);
+  EXPECT_EQ(first_sheet("--k-valence 0.3 --k-width 0.7")["energy"], polycube);
+  EXPECT_EQ(first_sheet("--preset polycube --k-valence 0.4 --k-width 0.6")["energy"], octree);
+  EXPECT_EQ(first_sheet("--k-valence 0 --k-width 0 --k-distortion 0")["energy"], 0);
+  EXPECT_NE(first_sheet("--min-width 2")["thickness"], first_sheet("")["thickness"]);
+  EXPECT_EQ(Json::parse(run("hexweft-rank in.vtk --json - --ranking thickness").out)["ranking"],
+            "thickness");
+}
+
+TEST_F(RankTool, RefusesWhatItCannotUse) {
+  make("grid");
+  for (const std::string arguments :
+       {"", "in.vtk --ranking width", "in.vtk --k-width -1", "in.vtk --k-width nan",
+        "in.vtk --preset cube", "in.vtk --max-chord-deviation 0"}) {
+    SCOPED_TRACE(arguments);
+    const ToolRun result = run("hexweft-rank " + arguments);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_THAT(result.err, IsSentenceOf("hexweft-rank"));
+  }
+}
+
+TEST_F(StructureTool, WritesComponentsSheetsAndChordsAsCellData) {
+  make("torus --square");
+  const ToolRun result =
+      run("hexweft-structure in.vtk -o out.vtk --json r.json --singular-edges s.vtk --base-edges "
+          "b.vtk");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const Json j = Json::parse(read_file(file("r.json")));
+  EXPECT_EQ(j["components"], info("in.vtk")["components"]);
+  const HexMesh mesh = read_hex_mesh(file("out.vtk"));
+  const auto component = named_property<CellTag, int>(mesh, "component", -1);
+  const auto color = named_property<CellTag, int>(mesh, "color", -1);
+  const auto sheets = named_property<CellTag, Eigen::VectorXi>(mesh, "sheets");
+  const auto chords = named_property<CellTag, Eigen::VectorXi>(mesh, "chords");
+  std::set<int> components;
+  for (const CellHandle c : mesh.cells()) {
+    components.insert(component[c]);
+    ASSERT_EQ(sheets[c].size(), 3);
+    ASSERT_EQ(chords[c].size(), 3);
+    EXPECT_GE(sheets[c].minCoeff(), 0);
+    EXPECT_LT(sheets[c].maxCoeff(), static_cast<int>(j["sheets"].size()));
+    EXPECT_GE(chords[c].minCoeff(), 0);
+    EXPECT_LT(chords[c].maxCoeff(), static_cast<int>(j["chords"].size()));
+    for (const HalfFaceHandle hf : mesh.halffaces(c)) {
+      const CellHandle n = mesh.cell(mesh.opposite(hf));
+      if (n.valid() && component[n] != component[c]) {
+        EXPECT_NE(color[n], color[c]);
+      }
+    }
+  }
+  EXPECT_EQ(components.size(), j["components"]);
+  const std::string lines = read_file(file("s.vtk"));
+  EXPECT_THAT(lines, testing::HasSubstr("DATASET POLYDATA"));
+  EXPECT_THAT(lines, testing::HasSubstr("LINES 4 "));  // the four edges of the ring
+  EXPECT_THAT(lines, testing::HasSubstr("SCALARS valence int 1"));
+  EXPECT_THAT(read_file(file("b.vtk")), testing::HasSubstr("SCALARS sheet int 1"));
+}
+
+TEST_F(StructureTool, CanBeRunOnItsOwnOutput) {
+  make("o-grid");
+  ASSERT_EQ(run("hexweft-structure in.vtk -o a.vtk").exit_code, 0);
+  ASSERT_EQ(run("hexweft-structure - -o b.vtk <a.vtk").exit_code, 0);
+  EXPECT_EQ(read_file(file("a.vtk")), read_file(file("b.vtk")));
+}
+
+TEST_F(CollapseTool, CollapsesASheetThatRankLists) {
+  make("grid --resolution 6 --sheets 2 --seed 3");
+  const Json ranked = Json::parse(run("hexweft-rank in.vtk --json -").out);
+  const auto closed = std::find_if(ranked["sheets"].begin(), ranked["sheets"].end(),
+                                   [](const Json& s) { return s["refusal"] == "none"; });
+  ASSERT_NE(closed, ranked["sheets"].end());
+  const std::string id = (*closed)["id"].dump();
+  const ToolRun result = run("hexweft-collapse in.vtk -o out.vtk --json - --sheet " + id);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const Json j = Json::parse(result.out);
+  const HexMesh mesh = read_hex_mesh(file("out.vtk"));
+  EXPECT_TRUE(is_valid(mesh));
+  EXPECT_GT(min_scaled_jacobian(mesh), 0);
+  EXPECT_EQ(mesh.n_cells(), j["after"]["hexahedra"]);
+  EXPECT_EQ(j["before"]["hexahedra"].get<int>() - mesh.n_cells(), (*closed)["cells"]);
+  EXPECT_LT(j["after"]["components"], j["before"]["components"]);
+  EXPECT_LE(j["after"]["hausdorff_ratio"], 0.01);
+}
+
+TEST_F(CollapseTool, SaysWhyNotAndWritesNothing) {
+  make("grid --resolution 1");
+  const ToolRun result = run("hexweft-collapse in.vtk -o out.vtk --sheet 0");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, testing::HasSubstr("sheet 0 cannot be collapsed: "));
+  EXPECT_THAT(result.err, IsSentenceOf("hexweft-collapse"));
+  EXPECT_EQ(n_files(), 1);
+  for (const std::string arguments :
+       {"in.vtk -o out.vtk", "in.vtk -o out.vtk --sheet 0 --chord 0", "in.vtk -o out.vtk --sheet 3",
+        "in.vtk -o out.vtk --chord -1", "in.vtk -o out.vtk --chord 0 --diagonal third"}) {
+    SCOPED_TRACE(arguments);
+    const ToolRun wrong = run("hexweft-collapse " + arguments);
+    EXPECT_EQ(wrong.exit_code, 2);
+    EXPECT_THAT(wrong.err, IsSentenceOf("hexweft-collapse"));
+  }
+}
+
+TEST_F(RefineTool, SplitsEveryHexahedronOfASheet) {
+  make("o-grid");
+  const Json before = info("in.vtk");
+  const Json sheet =
+      Json::parse(run("hexweft-rank in.vtk --json - --list 0").out)["sheets"].front();
+  const ToolRun result =
+      run("hexweft-refine in.vtk -o out.vtk --json - --sheet " + sheet["id"].dump());
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(Json::parse(result.out)["split"], sheet["width"]);
+  const Json after = info("out.vtk");
+  EXPECT_EQ(after["valid"], true);
+  EXPECT_EQ(after["components"], before["components"]);
+  EXPECT_EQ(after["hexahedra"], before["hexahedra"].get<int>() + sheet["cells"].get<int>());
+}
+
+TEST_F(RefineTool, SplitsUpToACount) {
+  make("octree-like --resolution 6");
+  const Json before = info("in.vtk");
+  const int wanted = before["hexahedra"].get<int>() * 3 / 2;
+  const ToolRun result =
+      run("hexweft-refine in.vtk -o out.vtk --hexahedra " + std::to_string(wanted));
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const Json after = info("out.vtk");
+  EXPECT_EQ(after["valid"], true);
+  EXPECT_EQ(after["inverted"], 0);
+  EXPECT_EQ(after["components"], before["components"]);
+  EXPECT_GE(after["hexahedra"], wanted);
+  EXPECT_LE(after["hexahedra"], wanted * 3 / 2);
+}
+
+TEST_F(RefineTool, RefusesWhatItCannotUse) {
+  make("grid --resolution 2");
+  for (const std::string arguments :
+       {"in.vtk -o out.vtk", "in.vtk -o out.vtk --sheet 0 --hexahedra 100",
+        "in.vtk -o out.vtk --sheet 3", "in.vtk -o out.vtk --hexahedra 0",
+        "in.vtk -o out.vtk --hexahedra 100 --hausdorff 0"}) {
+    SCOPED_TRACE(arguments);
+    const ToolRun result = run("hexweft-refine " + arguments);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_THAT(result.err, IsSentenceOf("hexweft-refine"));
+  }
+  EXPECT_EQ(n_files(), 1);
+}
+
+}  // namespace
+}  // namespace hexweft::test

@@ -1,0 +1,91 @@
+// hexweft-collapse: collapses one sheet or chord.
+#include <fmt/format.h>
+
+#include "simplify/candidates.h"
+#include "tools/single_trial.h"
+
+namespace hexweft {
+namespace {
+
+struct Request {
+  cli::TrialArguments trial;
+  std::optional<int> sheet, chord;
+  std::string diagonal;  // empty: the one that the ranking takes
+};
+
+template <class T>
+const T& pick(const std::vector<T>& list, int id, const char* what) {
+  if (id >= 0 && id < static_cast<int>(list.size())) return list[id];
+  throw InputError(fmt::format("{} {} is none of the {} of this mesh, expected [0, {})", what, id,
+                               list.size(), list.size()));
+}
+
+CollapsePlan plan_chord(const HexMesh& mesh, const BaseComplex& bc, const Request& request) {
+  const std::vector<Chord> chords = extract_chords(bc);
+  const std::vector<Sheet> sheets = extract_sheets(bc);
+  const Chord& chord = pick(chords, *request.chord, "chord");
+  if (const Refusal r = can_plan(bc, chord, sheets); r != Refusal::none) {
+    throw std::runtime_error(
+        fmt::format("chord {} cannot be collapsed: {}", *request.chord, cli::explain(r)));
+  }
+  Diagonal diagonal = request.diagonal == "second" ? Diagonal::second : Diagonal::first;
+  if (request.diagonal.empty()) {
+    diagonal =
+        rank_chords(mesh, bc, {chord}, boundary_gaussian_curvature(mesh), {}).front().diagonal;
+  }
+  return plan_chord_collapse(mesh, bc, chord, diagonal, sheets);
+}
+
+int run(cli::Program& program, const Request& request) {
+  if (request.sheet.has_value() == request.chord.has_value()) {
+    throw InputError("expected one of --sheet and --chord");
+  }
+  cli::SingleTrial trial(program, request.trial);
+  const BaseComplex bc = extract_base_complex(trial.mesh());
+  if (bc.irregular > 0) {
+    throw InputError(fmt::format("{} regions of the base complex are no cuboids", bc.irregular));
+  }
+  const CollapsePlan plan =
+      request.sheet
+          ? plan_sheet_collapse(trial.mesh(), bc, pick(extract_sheets(bc), *request.sheet, "sheet"))
+          : plan_chord(trial.mesh(), bc, request);
+  const auto before = trial.figures();
+  const TrialResult result = try_collapse(trial.context(), bc, plan, request.trial.options);
+  const char* what = request.sheet ? "sheet" : "chord";
+  const int id = request.sheet ? *request.sheet : *request.chord;
+  if (!result.accepted()) {
+    return program.fail(cli::kFailed, fmt::format("{} {} cannot be collapsed: {}", what, id,
+                                                  cli::explain(result.refusal)));
+  }
+  trial.mesh().collect_garbage();
+  const auto after = trial.figures();
+  program.write_mesh(trial.mesh());
+  program.write_json({{what, id}, {"before", before}, {"after", after}});
+  program.say_text(cli::compare(before, after));
+  return cli::kDone;
+}
+
+}  // namespace
+}  // namespace hexweft
+
+int main(int argc, char** argv) {
+  using namespace hexweft;
+  cli::Program program(
+      "hexweft-collapse",
+      "Collapses one sheet or chord of the base complex and relaxes the mesh round "
+      "it. Writes nothing where that would leave the mesh invalid or the surface "
+      "too far away.");
+  Request request;
+  CLI::App& app = program.app();
+  program.add_input();
+  program.add_output();
+  app.add_option("--sheet", request.sheet, "Id of a sheet, as hexweft-rank lists it");
+  app.add_option("--chord", request.chord, "Id of a chord, likewise");
+  app.add_option("--diagonal", request.diagonal,
+                 "Diagonal along which the chord folds: first or second (default: the one that "
+                 "leaves the smaller valence error)")
+      ->check(CLI::IsMember({"first", "second"}));
+  request.trial.add_to(app);
+  program.add_json();
+  return program.run(argc, argv, [&] { return run(program, request); });
+}

@@ -1,0 +1,138 @@
+// hexweft-optimize: better geometry, the same structure.
+#include <fmt/format.h>
+
+#include "optimize/energies/table.h"
+#include "optimize/hausdorff.h"
+#include "optimize/smooth.h"
+#include "ovm/quality.h"
+#include "tools/cli.h"
+#include "tools/progress_line.h"
+#include "tools/surface_input.h"
+
+namespace hexweft {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Request {
+  SmoothingOptions options = {.hausdorff_limit_rel = 0.005};
+  std::string energy = std::string(name(SmoothingOptions().parametrization.energy));
+  std::string surface;
+  bool untangle = false;
+};
+
+std::vector<std::string> energy_names() {
+  std::vector<std::string> names;
+  for (const Energy& e : all_energies()) names.emplace_back(name(e));
+  return names;
+}
+
+// What --untangle does: the whole mesh at once, and again from where that ended, until nothing is
+// inverted or it gets no better.
+void untangle(HexMesh& mesh, const ReferenceSurface& surface, const SmoothingOptions& options) {
+  std::vector<CellHandle> cells;
+  for (CellHandle c : mesh.cells()) cells.push_back(c);
+  ParametrizationOptions o = options.parametrization;
+  o.max_iterations = 1;
+  int inverted = summarize_quality(mesh, 0).n_inverted;
+  for (int round = 0; round < options.global_rounds && inverted > 0; ++round) {
+    parametrize(mesh, cells, surface, o);
+    const int now = summarize_quality(mesh, 0).n_inverted;
+    if (now >= inverted) break;
+    inverted = now;
+  }
+}
+
+Json to_json(const QualitySummary& q, double hausdorff_ratio) {
+  return {{"min_scaled_jacobian", q.min_scaled_jacobian},
+          {"mean_scaled_jacobian", q.mean_scaled_jacobian},
+          {"std_scaled_jacobian", q.std_scaled_jacobian},
+          {"mean_volume_deviation", q.mean_volume_deviation},
+          {"max_volume_deviation", q.max_volume_deviation},
+          {"inverted", q.n_inverted},
+          {"hausdorff_ratio", hausdorff_ratio}};
+}
+
+std::string table(const Json& before, const Json& after) {
+  std::string s = fmt::format("{:>22} {:>10} {:>10}\n", "", "before", "after");
+  for (const auto& [key, value] : before.items()) {
+    const auto text = [](const Json& x) {
+      return x.is_number_float() ? fmt::format("{:.5f}", x.get<double>()) : x.dump();
+    };
+    s += fmt::format("{:>22} {:>10} {:>10}\n", key, text(value), text(after.at(key)));
+  }
+  return s;
+}
+
+int run(cli::Program& program, Request& request) {
+  request.options.parametrization.energy = make_energy(request.energy);
+  validate(request.options);
+  if (request.surface == "-") throw InputError("--surface = -, expected a file");
+  HexMesh mesh = program.read_valid_mesh();
+  const ReferenceSurface surface = request.surface.empty() ? make_reference_surface(mesh)
+                                                           : program.read_surface(request.surface);
+  const Json before =
+      to_json(summarize_quality(mesh, 0), hausdorff_distance(mesh, surface).ratio());
+  Json report = {{"energy", request.energy}};
+  {
+    const cli::BusyLine busy(request.untangle ? "untangling" : "optimizing");
+    if (request.untangle) {
+      untangle(mesh, surface, request.options);
+    } else {
+      const SmoothingReport r = smooth(mesh, surface, request.options);
+      report["trials"] = r.trials;
+      report["accepted"] = r.accepted_global + r.accepted_local;
+    }
+  }
+  const QualitySummary q = summarize_quality(mesh, 0);
+  const Json after = to_json(q, hausdorff_distance(mesh, surface).ratio());
+  report["before"] = before;
+  report["after"] = after;
+  program.write_mesh(mesh);
+  program.write_json(report);
+  program.say_text(table(before, after));
+  if (q.n_inverted == 0) return cli::kDone;
+  return program.fail(cli::kFailed, fmt::format("{} hexahedra are still inverted", q.n_inverted));
+}
+
+}  // namespace
+}  // namespace hexweft
+
+int main(int argc, char** argv) {
+  using namespace hexweft;
+  cli::Program program("hexweft-optimize",
+                       "Moves the vertices of a hexahedral mesh so that its worst and its average "
+                       "hexahedra get better, and inverted ones valid, on the same surface. The "
+                       "structure stays.");
+  Request request;
+  SmoothingOptions& o = request.options;
+  CLI::App& app = program.app();
+  program.add_input();
+  program.add_output();
+  app.add_option("--energy", request.energy, "Distortion that is made small")
+      ->check(CLI::IsMember(energy_names()))
+      ->capture_default_str();
+  app.add_option(
+      "--surface", request.surface,
+      std::string("Surface to stay on (default: the boundary of INPUT): ") + cli::kSurfaceHelp);
+  app.add_option("--hausdorff", o.hausdorff_limit_rel,
+                 "Largest distance to the surface, both ways, as a fraction of its bounding-box "
+                 "diagonal; where INPUT is farther, no farther than that")
+      ->capture_default_str();
+  app.add_flag(
+      "--untangle", request.untangle,
+      "Only make inverted hexahedra valid, whatever the distance; a mesh without any comes "
+      "back as it is");
+  app.add_option("--iterations", o.global_rounds, "Passes over the whole mesh at most")
+      ->check(cli::in_range(0, 1e6))
+      ->capture_default_str();
+  app.add_option("--local-trials", o.local_trials,
+                 "Passes over the neighbourhoods of the worst hexahedra at most")
+      ->check(cli::in_range(0, 1e6))
+      ->capture_default_str();
+  app.add_option("--enough-scaled-jacobian", o.enough_scaled_jacobian,
+                 "Hexahedra at least this good are not worked on one by one")
+      ->capture_default_str();
+  program.add_json();
+  return program.run(argc, argv, [&] { return run(program, request); });
+}

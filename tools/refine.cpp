@@ -1,0 +1,115 @@
+// hexweft-refine: splits one sheet, or as many as a number of hexahedra takes.
+#include "simplify/refine.h"
+
+#include <fmt/format.h>
+
+#include "simplify/sheet.h"
+#include "tools/progress_line.h"
+#include "tools/single_trial.h"
+
+namespace hexweft {
+namespace {
+
+struct Request {
+  cli::TrialArguments trial;
+  std::optional<int> sheet, hexahedra;
+  double min_length_rel = 0;
+};
+
+// Splits every hexahedron of a base-complex sheet across it, layer by layer.
+// \return layers split
+int split_layers(cli::SingleTrial& trial, int id, const SimplifyOptions& options) {
+  HexMesh& mesh = trial.mesh();
+  const BaseComplex bc = extract_base_complex(mesh);
+  const std::vector<Sheet> sheets = extract_sheets(bc);
+  if (id < 0 || id >= static_cast<int>(sheets.size())) {
+    throw InputError(fmt::format("sheet {} is none of the {} of this mesh, expected [0, {})", id,
+                                 sheets.size(), sheets.size()));
+  }
+  const auto chain = bc.chain(bc.edges[sheets[id].edges.front()]);
+  std::vector<EdgeHandle> across;
+  for (std::size_t i = 1; i < chain.size(); ++i) {
+    across.push_back(mesh.find_edge(chain[i - 1], chain[i]));
+  }
+  int n = 0;
+  for (const EdgeHandle e : across) {
+    if (!mesh.is_live(e)) continue;  // of a layer that was split already: the sheet winds
+    if (!try_refine(trial.context(), dual_sheet(mesh, e), options)) {
+      throw std::runtime_error(fmt::format(
+          "layer {} of sheet {} cannot be split within the limits of quality and distance", n, id));
+    }
+    ++n;
+  }
+  return n;
+}
+
+// Splits sheets until there are so many hexahedra or none qualifies. \return sheets split
+int split_up_to(cli::SingleTrial& trial, const Request& request) {
+  HexMesh& mesh = trial.mesh();
+  cli::ProgressLine line;
+  std::vector<EdgeHandle> failed;
+  int n = 0;
+  while (mesh.n_cells() < *request.hexahedra) {
+    RefineOptions refine;
+    refine.max_cells = static_cast<int>(1.5 * (*request.hexahedra - mesh.n_cells()));
+    refine.min_length_rel = request.min_length_rel;
+    const auto sheet = choose_sheet_to_refine(mesh, trial.distance(), refine, failed);
+    if (!sheet) break;
+    if (try_refine(trial.context(), *sheet, request.trial.options)) {
+      failed.clear();
+      line.show(fmt::format("{} sheets split  H {}", ++n, mesh.n_cells()));
+    } else {
+      failed.push_back(sheet->edges.front());
+    }
+  }
+  return n;
+}
+
+int run(cli::Program& program, const Request& request) {
+  if (request.sheet.has_value() == request.hexahedra.has_value()) {
+    throw InputError("expected one of --sheet and --hexahedra");
+  }
+  cli::SingleTrial trial(program, request.trial);
+  const auto before = trial.figures();
+  const int n = request.sheet ? split_layers(trial, *request.sheet, request.trial.options)
+                              : split_up_to(trial, request);
+  trial.mesh().collect_garbage();
+  const auto after = trial.figures();
+  program.write_mesh(trial.mesh());
+  program.write_json({{"split", n}, {"before", before}, {"after", after}});
+  program.say_text(cli::compare(before, after));
+  if (request.hexahedra && trial.mesh().n_cells() < *request.hexahedra) {
+    program.note(
+        "no other sheet can be split without going far beyond the count that is asked for");
+  }
+  return cli::kDone;
+}
+
+}  // namespace
+}  // namespace hexweft
+
+int main(int argc, char** argv) {
+  using namespace hexweft;
+  cli::Program program(
+      "hexweft-refine",
+      "Splits the hexahedra of a sheet in two across it. The base complex stays as "
+      "it is; new vertices of the boundary come onto the surface.");
+  Request request;
+  CLI::App& app = program.app();
+  program.add_input();
+  program.add_output();
+  app.add_option("--sheet", request.sheet,
+                 "Split all layers of this sheet of the base complex, as hexweft-rank lists it");
+  app.add_option("--hexahedra", request.hexahedra,
+                 "Split layers, those farthest from the surface or longest across first, up to "
+                 "about this many hexahedra")
+      ->check(cli::in_range(1, 1e9));
+  app.add_option("--min-length", request.min_length_rel,
+                 "With --hexahedra: split no layer whose mean length across is below this many "
+                 "mean edges")
+      ->check(cli::in_range(0, 1e6))
+      ->capture_default_str();
+  request.trial.add_to(app);
+  program.add_json();
+  return program.run(argc, argv, [&] { return run(program, request); });
+}
