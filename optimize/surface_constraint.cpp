@@ -143,14 +143,52 @@ SurfaceGoal goal_on_feature(const FeatureCurves& curves, const FeatureLabel& lab
   return {vertex, on.point, Eigen::Matrix3d::Identity() - on.tangent * on.tangent.transpose()};
 }
 
-/// Marks the vertices of quads that have one on a feature.
-std::vector<char> beside_features(const Region& region, const std::vector<FeatureLabel>& labels) {
-  std::vector<char> beside(labels.size(), 0);
+/// Takes the vertices on curved lines half way to where the line is between them, so that the chain
+/// of edges errs as much outward at its vertices as inward at its middles.
+void fit_lines(const Region& region, const FeatureCurves& curves,
+               const std::vector<FeatureLabel>& labels, std::vector<SurfaceGoal>& goals) {
+  constexpr double kDamping = 0.9;
+  std::vector<Eigen::Vector3d> sagitta(labels.size(), Eigen::Vector3d::Zero());
+  std::vector<int> n_edges(labels.size(), 0);
+  const auto to_line = [&](const Eigen::Vector3d& p, int line) -> Eigen::Vector3d {
+    return curves.closest(p, line).point - p;
+  };
+  for (const auto& q : region.quads) {
+    for (int k = 0; k < 4; ++k) {
+      const int a = q[k], b = q[(k + 1) % 4];
+      const int line = std::max(labels[a].line, labels[b].line);
+      const auto is_on = [&](int v) { return labels[v].is_corner() || labels[v].line == line; };
+      if (line < 0 || !is_on(a) || !is_on(b)) continue;
+      const Eigen::Vector3d pa = region.points.col(a), pb = region.points.col(b);
+      const Eigen::Vector3d d =
+          to_line((pa + pb) / 2, line) - (to_line(pa, line) + to_line(pb, line)) / 2;
+      for (int v : {a, b}) {
+        sagitta[v] += d;
+        ++n_edges[v];
+      }
+    }
+  }
+  for (SurfaceGoal& goal : goals) {
+    if (!labels[goal.vertex].is_line() || n_edges[goal.vertex] == 0) continue;
+    goal.point += kDamping / 2 / n_edges[goal.vertex] * (goal.fixed * sagitta[goal.vertex]);
+  }
+}
+
+/// Unmarks the vertices of which the nearest line runs through a quad at them, as a chain of edges:
+/// they themselves belong to a face.
+void leave_to_chains(const Region& region, const FeatureCurves& curves,
+                     const std::vector<FeatureLabel>& labels, std::vector<char>& at_feature) {
   for (const auto& q : region.quads) {
     if (std::none_of(q.begin(), q.end(), [&](int v) { return labels[v].is_any(); })) continue;
-    for (int v : q) beside[v] = 1;
+    for (int v : q) {
+      if (!at_feature[v] || labels[v].is_any()) continue;
+      const int nearest = curves.closest(region.points.col(v)).line;
+      const auto runs_here = [&](int w) {
+        return labels[w].is_corner() || labels[w].line == nearest;
+      };
+      if (std::any_of(q.begin(), q.end(), runs_here)) at_feature[v] = 0;
+    }
   }
-  return beside;
 }
 
 /// Hexahedra at every free vertex, as one array with offsets.
@@ -190,10 +228,7 @@ std::vector<SurfaceGoal> surface_goals(const Region& region, const ReferenceSurf
   }
   const std::vector<FeatureLabel> labels =
       assign_features(region.points, region.quads, region.n_free, reference);
-  const std::vector<char> beside = beside_features(region, labels);
-  for (int v : region.surface) {
-    if (beside[v]) at_feature[v] = 0;
-  }
+  leave_to_chains(region, reference.curves(), labels, at_feature);
   std::vector<TangentPlanes> planes = tangent_planes(region, normals, reference, at_feature);
   std::vector<SurfaceGoal> goals;
   goals.reserve(region.surface.size());
@@ -212,6 +247,7 @@ std::vector<SurfaceGoal> surface_goals(const Region& region, const ReferenceSurf
     plane[v] = goals.back().fixed.trace() < 1.5;
   }
   if (options.treatment == SurfaceTreatment::project) return goals;
+  if (reference.curves().n_lines() > 0) fit_lines(region, reference.curves(), labels, goals);
   constexpr double kDamping = 0.7;  // neighbors move the same way; undamped they would overshoot
   std::vector<Deviation> deviation = deviations(region, normals, reference);
   for (SurfaceGoal& goal : goals) {

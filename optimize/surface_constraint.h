@@ -30,11 +30,13 @@ struct SurfaceGoal {
   Eigen::Matrix3d fixed;  ///< projector onto the directions it must not move in
 };
 
-/// One goal for each vertex of region.surface, in that order. Closest points are looked for among
-/// the triangles that face as the quads at the vertex do, so that a thin part keeps its two sides
-/// apart. The tangent planes met a little way into the quads round a vertex tell what it sits on:
-/// nearly one plane, and it slides on it; two, and it slides along their line; more, and it stays
-/// in the corner.
+/// One goal for each vertex of region.surface, in that order. Vertices that stand for a feature of
+/// the reference (feature_assignment.h) slide along its line, or stay in its corner; with `fit` the
+/// chain of edges along a curved line errs to both sides of it. For the others, closest points are
+/// looked for among the triangles that face as the quads at the vertex do, so that a thin part keeps
+/// its two sides apart. Where no chain was found for a line, the tangent planes met a little way into
+/// the quads round a vertex tell what it sits on: nearly one plane, and it slides on it; two, and it
+/// slides along their line; more, and it stays in the corner.
 std::vector<SurfaceGoal> surface_goals(const Region& region, const ReferenceSurface& reference,
                                        const SurfaceOptions& options);
 

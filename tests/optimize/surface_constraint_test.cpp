@@ -85,6 +85,21 @@ TEST(SurfaceConstraint, AMovedCylinderComesBackToItsRims) {
   }
 }
 
+TEST(SurfaceConstraint, FittedChainsErrToBothSidesOfACurvedLine) {
+  const ReferenceSurface reference =
+      make_reference_surface(make_o_grid({.n_core = 24, .n_ring = 8, .n_layers = 12}));
+  const HexMesh coarse = make_o_grid({.n_core = 2, .n_ring = 2, .n_layers = 2});
+  double error[2];
+  for (auto treatment : {SurfaceTreatment::project, SurfaceTreatment::fit}) {
+    HexMesh mesh = coarse;
+    ParametrizationOptions options;
+    options.surface.treatment = treatment;
+    ASSERT_TRUE(parametrize(mesh, all_cells(mesh), reference, options).valid());
+    error[treatment == SurfaceTreatment::fit] = hausdorff_distance(mesh, reference).ratio();
+  }
+  EXPECT_LT(error[1], 0.7 * error[0]);
+}
+
 TEST(SurfaceConstraint, PullsScaleWithTheEdgeLength) {
   const HexMesh cube = make_grid({2, 2, 2}, kBox);
   const ReferenceSurface reference = make_reference_surface(cube);
