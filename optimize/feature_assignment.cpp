@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <functional>
 #include <queue>
 #include <tuple>
 #include <utility>
@@ -10,68 +10,13 @@
 #include <Eigen/Geometry>
 
 #include "optimize/feature_curves.h"
+#include "optimize/patch_graph.h"
 #include "ovm/hex_mesh.h"
 
 namespace hexweft {
 namespace {
 
 constexpr double kReach = 0.75;  // of a vertex's mean edge length: how far its lines may be
-
-struct PatchEdge {
-  int to;
-  double length;
-  bool bent;  // the quads at it differ in direction
-};
-
-/// The edges of a set of quads, by vertex.
-class PatchGraph {
- public:
-  PatchGraph(const Eigen::Matrix3Xd& points, std::span<const std::array<int, 4>> quads);
-  std::span<const PatchEdge> edges(int v) const {
-    return {edges_.data() + first_[v], edges_.data() + first_[v + 1]};
-  }
-  double mean_length(int v) const { return mean_[v]; }  ///< 0 for a vertex of no quad
-
- private:
-  std::vector<int> first_;
-  std::vector<PatchEdge> edges_;
-  std::vector<double> mean_;
-};
-
-PatchGraph::PatchGraph(const Eigen::Matrix3Xd& points, std::span<const std::array<int, 4>> quads)
-    : first_(points.cols() + 1, 0), mean_(points.cols(), 0) {
-  const double bent = std::cos(25 * std::numbers::pi / 180);
-  std::vector<std::tuple<int, int, int>> sides;  // from, to, quad; both ways
-  std::vector<Eigen::Vector3d> normals;
-  for (const auto& q : quads) {
-    const auto id = static_cast<int>(normals.size());
-    const Eigen::Vector3d d1 = points.col(q[2]) - points.col(q[0]);
-    const Eigen::Vector3d d2 = points.col(q[3]) - points.col(q[1]);
-    normals.push_back(d1.cross(d2).normalized());
-    for (int k = 0; k < 4; ++k) {
-      sides.emplace_back(q[k], q[(k + 1) % 4], id);
-      sides.emplace_back(q[(k + 1) % 4], q[k], id);
-    }
-  }
-  std::sort(sides.begin(), sides.end());
-  for (std::size_t i = 0, next = 0; i < sides.size(); i = next) {
-    const auto& [from, to, quad] = sides[i];
-    for (next = i + 1; next < sides.size() && std::get<0>(sides[next]) == from;) {
-      if (std::get<1>(sides[next]) != to) break;
-      ++next;
-    }
-    const bool pair = next == i + 2;
-    const double length = (points.col(to) - points.col(from)).norm();
-    edges_.push_back(
-        {to, length, pair && normals[quad].dot(normals[std::get<2>(sides[i + 1])]) < bent});
-    mean_[from] += length;
-    ++first_[from + 1];
-  }
-  for (std::size_t v = 0; v + 1 < first_.size(); ++v) {
-    if (first_[v + 1] > 0) mean_[v] /= first_[v + 1];
-    first_[v + 1] += first_[v];
-  }
-}
 
 /// A vertex a line is sure to pass through.
 struct Anchor {
@@ -101,6 +46,12 @@ class Assignment {
   std::vector<Anchor> anchors(int line) const;
   void add_anchors_of_loop(int line, std::vector<Anchor>& anchors) const;
   void follow(int line);
+  /// Arc length from one anchor on to the other, on a closed line past its first point if need be.
+  double stretch(int line, const Anchor& from, const Anchor& to) const {
+    return to.at - from.at + (to.at > from.at ? 0 : curves_.length(line));
+  }
+  bool is_between(int v, int line, const Anchor& from, const Anchor& to) const;
+  double penalty(int line, int v, const PatchEdge& e) const;
   std::vector<int> path(int line, const Anchor& from, const Anchor& to) const;
 
   const Eigen::Matrix3Xd& points_;
@@ -200,55 +151,60 @@ std::vector<Anchor> Assignment::anchors(int line) const {
   return result;
 }
 
+/// Whether a chain between the anchors may pass through the vertex.
+bool Assignment::is_between(int v, int line, const Anchor& from, const Anchor& to) const {
+  if (v == to.vertex) return true;
+  const CurvePoint* on = near(v, line);
+  if (!on || labels_[v].is_any()) return false;
+  const double length = curves_.length(line), margin = graph_.mean_length(from.vertex);
+  double beyond = on->at - from.at;
+  if (curves_.closed(line)) beyond -= length * std::floor((beyond + margin) / length);
+  return beyond >= -margin && beyond <= stretch(line, from, to) + margin;
+}
+
+/// How much worse than its length an edge is for a chain: off the line, and not bent.
+double Assignment::penalty(int line, int v, const PatchEdge& e) const {
+  constexpr double kOff = 10, kFlat = 3;
+  double off = 0;
+  for (int end : {v, e.to}) {
+    const CurvePoint* on = near(end, line);
+    const double d = (on ? on->distance : 0) / graph_.mean_length(end);
+    off += d * d / 2;
+  }
+  return (1 + kOff * off) * (e.bent ? 1 : kFlat);
+}
+
 /// The vertices of the chain from one anchor to the next, by Dijkstra's algorithm; empty if there
 /// is none that keeps to the line.
 std::vector<int> Assignment::path(int line, const Anchor& from, const Anchor& to) const {
-  constexpr double kOff = 10, kFlat = 3;  // how much worse a chain is a length off, and not bent
-  constexpr double kLongest = 1.5;        // of the line's stretch
-  const double length = curves_.length(line);
-  double stretch = to.at - from.at;
-  if (stretch <= 0) stretch += length;
-  const double margin = graph_.mean_length(from.vertex);
-  const auto usable = [&](int v) {
-    if (v == to.vertex) return true;
-    const CurvePoint* on = near(v, line);
-    if (!on || labels_[v].is_any()) return false;
-    double beyond = on->at - from.at;
-    if (curves_.closed(line)) beyond -= length * std::floor((beyond + margin) / length);
-    return beyond >= -margin && beyond <= stretch + margin;
-  };
-  const auto off = [&](int v) {
-    const CurvePoint* on = near(v, line);
-    const double d = (on ? on->distance : 0) / graph_.mean_length(v);
-    return d * d;
-  };
+  constexpr double kLongest = 1.5;  // of the line's stretch
   struct Reached {
-    double cost, length;
-    int before;
-    bool done;
+    double cost = -1, length = 0;
+    int before = -1;
+    bool done = false;
   };
-  std::vector<Reached> reached(points_.cols(), {-1, 0, -1, false});
+  std::vector<Reached> reached(points_.cols());
   std::priority_queue<std::pair<double, int>, std::vector<std::pair<double, int>>, std::greater<>>
       front;
   reached[from.vertex].cost = 0;
   front.emplace(0, from.vertex);
-  while (!front.empty()) {
+  while (!front.empty() && !reached[to.vertex].done) {
     const int v = front.top().second;
     front.pop();
     if (reached[v].done) continue;
     reached[v].done = true;
-    if (v == to.vertex) break;
     for (const PatchEdge& e : graph_.edges(v)) {
-      if (reached[e.to].done || !usable(e.to)) continue;
-      const double cost =
-          reached[v].cost + e.length * (1 + kOff * (off(v) + off(e.to)) / 2) * (e.bent ? 1 : kFlat);
-      if (reached[e.to].cost >= 0 && reached[e.to].cost <= cost) continue;
-      reached[e.to] = {cost, reached[v].length + e.length, v, false};
+      Reached& next = reached[e.to];
+      if (next.done || !is_between(e.to, line, from, to)) continue;
+      const double cost = reached[v].cost + e.length * penalty(line, v, e);
+      if (next.cost >= 0 && next.cost <= cost) continue;
+      next = {cost, reached[v].length + e.length, v, false};
       front.emplace(cost, e.to);
     }
   }
   const Reached& end = reached[to.vertex];
-  if (!end.done || from.vertex == to.vertex || end.length > kLongest * stretch + margin) return {};
+  const double most = kLongest * stretch(line, from, to) + graph_.mean_length(from.vertex);
+  if (!end.done || from.vertex == to.vertex || end.length > most) return {};
   std::vector<int> vertices;
   for (int v = to.vertex; v >= 0; v = reached[v].before) vertices.push_back(v);
   return vertices;

@@ -7,7 +7,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
-#include "optimize/feature_assignment.h"
+#include "optimize/feature_goals.h"
 
 namespace hexweft {
 namespace {
@@ -133,47 +133,6 @@ SurfaceGoal goal_on(const TangentPlanes& planes, int vertex, const Eigen::Vector
   return goal;
 }
 
-/// The goal of a vertex that stands for a feature.
-SurfaceGoal goal_on_feature(const FeatureCurves& curves, const FeatureLabel& label, int vertex,
-                            const Eigen::Vector3d& p) {
-  if (label.is_corner()) {
-    return {vertex, curves.corner(label.corner), Eigen::Matrix3d::Identity()};
-  }
-  const CurvePoint on = curves.closest(p, label.line);
-  return {vertex, on.point, Eigen::Matrix3d::Identity() - on.tangent * on.tangent.transpose()};
-}
-
-/// Takes the vertices on curved lines half way to where the line is between them, so that the chain
-/// of edges errs as much outward at its vertices as inward at its middles.
-void fit_lines(const Region& region, const FeatureCurves& curves,
-               const std::vector<FeatureLabel>& labels, std::vector<SurfaceGoal>& goals) {
-  constexpr double kDamping = 0.9;
-  std::vector<Eigen::Vector3d> sagitta(labels.size(), Eigen::Vector3d::Zero());
-  std::vector<int> n_edges(labels.size(), 0);
-  const auto to_line = [&](const Eigen::Vector3d& p, int line) -> Eigen::Vector3d {
-    return curves.closest(p, line).point - p;
-  };
-  for (const auto& q : region.quads) {
-    for (int k = 0; k < 4; ++k) {
-      const int a = q[k], b = q[(k + 1) % 4];
-      const int line = std::max(labels[a].line, labels[b].line);
-      const auto is_on = [&](int v) { return labels[v].is_corner() || labels[v].line == line; };
-      if (line < 0 || !is_on(a) || !is_on(b)) continue;
-      const Eigen::Vector3d pa = region.points.col(a), pb = region.points.col(b);
-      const Eigen::Vector3d d =
-          to_line((pa + pb) / 2, line) - (to_line(pa, line) + to_line(pb, line)) / 2;
-      for (int v : {a, b}) {
-        sagitta[v] += d;
-        ++n_edges[v];
-      }
-    }
-  }
-  for (SurfaceGoal& goal : goals) {
-    if (!labels[goal.vertex].is_line() || n_edges[goal.vertex] == 0) continue;
-    goal.point += kDamping / 2 / n_edges[goal.vertex] * (goal.fixed * sagitta[goal.vertex]);
-  }
-}
-
 /// Unmarks the vertices of which the nearest line runs through a quad at them, as a chain of edges:
 /// they themselves belong to a face.
 void leave_to_chains(const Region& region, const FeatureCurves& curves,
@@ -188,6 +147,24 @@ void leave_to_chains(const Region& region, const FeatureCurves& curves,
       };
       if (std::any_of(q.begin(), q.end(), runs_here)) at_feature[v] = 0;
     }
+  }
+}
+
+/// Moves the goals of the marked vertices off the reference, to the middle of the deviations of the
+/// quads round them.
+void fit_planes(const Region& region, const RegionNormals& normals,
+                const ReferenceSurface& reference, const std::vector<char>& plane,
+                std::vector<SurfaceGoal>& goals) {
+  constexpr double kDamping = 0.7;  // neighbors move the same way; undamped they would overshoot
+  std::vector<Deviation> deviation = deviations(region, normals, reference);
+  for (SurfaceGoal& goal : goals) {
+    if (!plane[goal.vertex]) continue;
+    const Eigen::Vector3d p = region.points.col(goal.vertex);
+    const Eigen::Vector3d normal = normals.vertex.col(goal.vertex);
+    const double own = (goal.point - p).dot(normal);
+    Deviation& d = deviation[goal.vertex];
+    d.take(own);
+    goal.point += (kDamping * d.middle() - own) * (goal.fixed * normal);
   }
 }
 
@@ -248,17 +225,7 @@ std::vector<SurfaceGoal> surface_goals(const Region& region, const ReferenceSurf
   }
   if (options.treatment == SurfaceTreatment::project) return goals;
   if (reference.curves().n_lines() > 0) fit_lines(region, reference.curves(), labels, goals);
-  constexpr double kDamping = 0.7;  // neighbors move the same way; undamped they would overshoot
-  std::vector<Deviation> deviation = deviations(region, normals, reference);
-  for (SurfaceGoal& goal : goals) {
-    if (!plane[goal.vertex]) continue;
-    const Eigen::Vector3d p = region.points.col(goal.vertex);
-    const Eigen::Vector3d normal = normals.vertex.col(goal.vertex);
-    const double own = (goal.point - p).dot(normal);
-    Deviation& d = deviation[goal.vertex];
-    d.take(own);
-    goal.point += (kDamping * d.middle() - own) * (goal.fixed * normal);
-  }
+  fit_planes(region, normals, reference, plane, goals);
   return goals;
 }
 
