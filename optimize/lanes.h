@@ -69,10 +69,10 @@ HEXWEFT_INLINE T broadcast(double s) {
 }
 
 HEXWEFT_INLINE double square_root(double a) { return std::sqrt(a); }
-/// The library's square root sets errno, which costs a branch a lane; the instruction does not.
+/// Where the library's square root sets errno it costs a branch a lane; the instruction does not.
 HEXWEFT_INLINE Lanes square_root(const Lanes& a) {
   Lanes r;
-#if defined(__SSE2__)
+#if defined(__SSE2__) && !defined(__NO_MATH_ERRNO__)
   for (int i = 0; i < 8; i += 2) {
     const __m128d root = _mm_sqrt_pd(__m128d{a[i], a[i + 1]});
     r[i] = root[0];
