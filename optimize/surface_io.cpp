@@ -76,7 +76,8 @@ bool is_surface_file(const std::filesystem::path& path) {
   return std::find(kExtensions.begin(), kExtensions.end(), extension_of(path)) != kExtensions.end();
 }
 
-ReferenceSurface read_surface(const std::filesystem::path& path, double feature_angle_deg) {
+ReferenceSurface read_surface(const std::filesystem::path& path, double feature_angle_deg,
+                              const FeatureOptions& features) {
   if (!is_surface_file(path)) fail(path, "expected a surface: .obj, .off, .ply or .stl");
   const PolygonMesh mesh = read_polygons(path);
   Eigen::Matrix3Xd points(3, mesh.n_vertices());
@@ -93,7 +94,7 @@ ReferenceSurface read_surface(const std::filesystem::path& path, double feature_
   }
   if (triangles.empty()) fail(path, "has no triangles");
   if (!points.allFinite()) fail(path, "has a coordinate that is not finite");
-  return {std::move(points), std::move(triangles), feature_angle_deg};
+  return {std::move(points), std::move(triangles), feature_angle_deg, features};
 }
 
 }  // namespace hexweft

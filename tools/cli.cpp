@@ -156,9 +156,9 @@ HexMesh Program::read_valid_mesh() {
   return mesh;
 }
 
-ReferenceSurface Program::read_surface(const std::string& path) {
+ReferenceSurface Program::read_surface(const std::string& path, const FeatureOptions& features) {
   std::vector<std::string> notes;
-  ReferenceSurface surface = read_surface_input(path, notes);
+  ReferenceSurface surface = read_surface_input(path, notes, features);
   for (const std::string& text : notes) note(text);
   return surface;
 }

@@ -57,7 +57,7 @@ class Program {
   /// The INPUT of a program that needs a base complex. \throws InputError naming what is wrong
   HexMesh read_valid_mesh();
   /// Of a triangle file, or the boundary of a mesh (surface_input.h); notes go to standard error.
-  ReferenceSurface read_surface(const std::string& path);
+  ReferenceSurface read_surface(const std::string& path, const FeatureOptions& features = {});
   void write_mesh(const HexMesh& mesh);  ///< to the --output
   bool wants_json() const { return !json_path_.empty(); }
   void write_json(const nlohmann::ordered_json& report);  ///< if --json asks for it

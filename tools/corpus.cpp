@@ -61,6 +61,9 @@ std::vector<CorpusJob> find_jobs(const Request& request, const cli::PublishedTab
     return std::tie(a.corpus, a.mesh, a.input) < std::tie(b.corpus, b.mesh, b.input);
   });
   for (const CorpusJob& job : jobs) {
+    if (fs::weakly_canonical(job.stem.string() + ".vtk") == fs::weakly_canonical(job.input)) {
+      throw InputError("--output = " + request.output + ", expected another folder than FOLDER");
+    }
     if (stems.insert(job.stem).second) continue;
     throw InputError(job.input.string() + ": another mesh of the folder has the same name");
   }

@@ -31,7 +31,7 @@ std::string stamp(const fs::path& file) {
 Json report_of(const std::vector<std::string>& arguments) {
   const ProcessResult run = run_process(arguments);
   if (run.exit_code != 0) throw std::runtime_error(run.problem);
-  const Json report = Json::parse(run.output, nullptr, false);
+  Json report = Json::parse(run.output, nullptr, false);
   if (report.is_discarded()) throw std::runtime_error(arguments[0] + ": printed no JSON");
   return report;
 }

@@ -217,7 +217,8 @@ std::string csv_table(const std::vector<CorpusRow>& rows, const PublishedTable& 
 std::string markdown_table(const std::vector<CorpusRow>& rows, const PublishedTable& published) {
   std::string out;
   for (const Section& section : sections(rows)) {
-    out += (out.empty() ? "" : "\n") + markdown_section(section, published);
+    if (!out.empty()) out += '\n';
+    out += markdown_section(section, published);
   }
   return out;
 }

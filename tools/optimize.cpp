@@ -7,6 +7,7 @@
 #include "ovm/quality.h"
 #include "tools/cli.h"
 #include "tools/progress_line.h"
+#include "tools/single_trial.h"
 #include "tools/surface_input.h"
 
 namespace hexweft {
@@ -17,7 +18,7 @@ using Json = nlohmann::ordered_json;
 struct Request {
   SmoothingOptions options = {.hausdorff_limit_rel = 0.005};
   std::string energy = std::string(name(SmoothingOptions().parametrization.energy));
-  std::string surface;
+  std::string surface, features = "auto";
   bool untangle = false;
 };
 
@@ -53,24 +54,44 @@ Json to_json(const QualitySummary& q, double hausdorff_ratio) {
           {"hausdorff_ratio", hausdorff_ratio}};
 }
 
-std::string table(const Json& before, const Json& after) {
-  std::string s = fmt::format("{:>22} {:>10} {:>10}\n", "", "before", "after");
-  for (const auto& [key, value] : before.items()) {
-    const auto text = [](const Json& x) {
-      return x.is_number_float() ? fmt::format("{:.5f}", x.get<double>()) : x.dump();
-    };
-    s += fmt::format("{:>22} {:>10} {:>10}\n", key, text(value), text(after.at(key)));
-  }
-  return s;
+void add_options(CLI::App& app, Request& request) {
+  SmoothingOptions& o = request.options;
+  app.add_option("--energy", request.energy, "Distortion that is made small")
+      ->check(CLI::IsMember(energy_names()))
+      ->capture_default_str();
+  app.add_option(
+      "--surface", request.surface,
+      std::string("Surface to stay on (default: the boundary of INPUT): ") + cli::kSurfaceHelp);
+  app.add_option("--features", request.features, cli::kFeaturesHelp)->capture_default_str();
+  app.add_option("--hausdorff", o.hausdorff_limit_rel,
+                 "Largest distance to the surface, both ways, as a fraction of its bounding-box "
+                 "diagonal; where INPUT is farther, no farther than that")
+      ->capture_default_str();
+  app.add_flag(
+      "--untangle", request.untangle,
+      "Only make inverted hexahedra valid, whatever the distance; a mesh without any comes "
+      "back as it is");
+  app.add_option("--iterations", o.global_rounds, "Passes over the whole mesh at most")
+      ->check(cli::in_range(0, 1e6))
+      ->capture_default_str();
+  app.add_option("--local-trials", o.local_trials,
+                 "Passes over the neighbourhoods of the worst hexahedra at most")
+      ->check(cli::in_range(0, 1e6))
+      ->capture_default_str();
+  app.add_option("--enough-scaled-jacobian", o.enough_scaled_jacobian,
+                 "Hexahedra at least this good are not worked on one by one")
+      ->capture_default_str();
 }
 
 int run(cli::Program& program, Request& request) {
   request.options.parametrization.energy = make_energy(request.energy);
   validate(request.options);
+  const FeatureOptions features = cli::parse_features(request.features);
   if (request.surface == "-") throw InputError("--surface = -, expected a file");
   HexMesh mesh = program.read_valid_mesh();
-  const ReferenceSurface surface = request.surface.empty() ? make_reference_surface(mesh)
-                                                           : program.read_surface(request.surface);
+  const ReferenceSurface surface = request.surface.empty()
+                                       ? cli::boundary_of(mesh, features)
+                                       : program.read_surface(request.surface, features);
   const Json before =
       to_json(summarize_quality(mesh, 0), hausdorff_distance(mesh, surface).ratio());
   Json report = {{"energy", request.energy}};
@@ -90,7 +111,7 @@ int run(cli::Program& program, Request& request) {
   report["after"] = after;
   program.write_mesh(mesh);
   program.write_json(report);
-  program.say_text(table(before, after));
+  program.say_text(cli::compare(before, after));
   if (q.n_inverted == 0) return cli::kDone;
   return program.fail(cli::kFailed, fmt::format("{} hexahedra are still inverted", q.n_inverted));
 }
@@ -105,34 +126,9 @@ int main(int argc, char** argv) {
                        "hexahedra get better, and inverted ones valid, on the same surface. The "
                        "structure stays.");
   Request request;
-  SmoothingOptions& o = request.options;
-  CLI::App& app = program.app();
   program.add_input();
   program.add_output();
-  app.add_option("--energy", request.energy, "Distortion that is made small")
-      ->check(CLI::IsMember(energy_names()))
-      ->capture_default_str();
-  app.add_option(
-      "--surface", request.surface,
-      std::string("Surface to stay on (default: the boundary of INPUT): ") + cli::kSurfaceHelp);
-  app.add_option("--hausdorff", o.hausdorff_limit_rel,
-                 "Largest distance to the surface, both ways, as a fraction of its bounding-box "
-                 "diagonal; where INPUT is farther, no farther than that")
-      ->capture_default_str();
-  app.add_flag(
-      "--untangle", request.untangle,
-      "Only make inverted hexahedra valid, whatever the distance; a mesh without any comes "
-      "back as it is");
-  app.add_option("--iterations", o.global_rounds, "Passes over the whole mesh at most")
-      ->check(cli::in_range(0, 1e6))
-      ->capture_default_str();
-  app.add_option("--local-trials", o.local_trials,
-                 "Passes over the neighbourhoods of the worst hexahedra at most")
-      ->check(cli::in_range(0, 1e6))
-      ->capture_default_str();
-  app.add_option("--enough-scaled-jacobian", o.enough_scaled_jacobian,
-                 "Hexahedra at least this good are not worked on one by one")
-      ->capture_default_str();
+  add_options(program.app(), request);
   program.add_json();
   return program.run(argc, argv, [&] { return run(program, request); });
 }

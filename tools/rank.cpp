@@ -37,24 +37,6 @@ int main(int argc, char** argv) {
       ->check(cli::in_range(0, 1e9))
       ->capture_default_str();
   ranking.add_to(app);
-  app.add_option("--max-chord-deviation", options.max_chord_deviation,
-                 "Valence error D(c) / 3k that a chord may leave behind")
-      ->capture_default_str()
-      ->group("Filters");
-  app.add_option("--min-interior-valence", options.valence.min_interior,
-                 "Fewest hexahedra at an inner edge")
-      ->check(cli::in_range(1, 100))
-      ->capture_default_str()
-      ->group("Filters");
-  app.add_option("--max-interior-valence", options.valence.max_interior,
-                 "Most hexahedra at an inner edge that merges, unless it has more already")
-      ->check(cli::in_range(1, 100))
-      ->capture_default_str()
-      ->group("Filters");
-  app.add_option("--max-boundary-valence", options.valence.max_boundary,
-                 "Most hexahedra at an edge of the boundary that merges")
-      ->check(cli::in_range(1, 100))
-      ->capture_default_str()
-      ->group("Filters");
+  cli::add_filter_options(app, options);
   return program.run(argc, argv, [&] { return run(program, ranking, options, max_rows); });
 }

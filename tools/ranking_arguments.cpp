@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "tools/cli.h"
+
 namespace hexweft::cli {
 namespace {
 
@@ -62,6 +64,28 @@ RankingWeights RankingArguments::weights() const {
 
 Ranking RankingArguments::ranking() const {
   return ranking_ == name(Ranking::thickness) ? Ranking::thickness : Ranking::weighted;
+}
+
+void add_filter_options(CLI::App& app, SimplifyOptions& options) {
+  app.add_option("--max-chord-deviation", options.max_chord_deviation,
+                 "Valence error D(c) / 3k that a chord may leave behind")
+      ->capture_default_str()
+      ->group("Filters");
+  app.add_option("--min-interior-valence", options.valence.min_interior,
+                 "Fewest hexahedra at an inner edge")
+      ->check(in_range(1, 100))
+      ->capture_default_str()
+      ->group("Filters");
+  app.add_option("--max-interior-valence", options.valence.max_interior,
+                 "Most hexahedra at an inner edge that merges, unless it has more already")
+      ->check(in_range(1, 100))
+      ->capture_default_str()
+      ->group("Filters");
+  app.add_option("--max-boundary-valence", options.valence.max_boundary,
+                 "Most hexahedra at an edge of the boundary that merges")
+      ->check(in_range(1, 100))
+      ->capture_default_str()
+      ->group("Filters");
 }
 
 }  // namespace hexweft::cli

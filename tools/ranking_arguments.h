@@ -31,4 +31,7 @@ class RankingArguments {
   std::vector<std::function<void(RankingWeights&)>> changes_;
 };
 
+/// The filters of candidates: chord deviation and bounds on valences.
+void add_filter_options(CLI::App& app, SimplifyOptions& options);
+
 }  // namespace hexweft::cli

@@ -42,6 +42,7 @@ void add_options(CLI::App& app, Request& r) {
   app.add_option("--seconds", r.max_seconds, "Stop collapsing after this long");
   app.add_flag("--no-chords", r.no_chords, "Collapse sheets only");
   r.ranking.add_weights_to(app);
+  cli::add_filter_options(app, o);
 }
 
 std::string text_of(const SimplifyProgress& p) {

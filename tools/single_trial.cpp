@@ -28,6 +28,7 @@ void TrialArguments::add_to(CLI::App& app) {
   app.add_option(
       "--surface", surface,
       std::string("Surface to stay on (default: the boundary of INPUT): ") + kSurfaceHelp);
+  app.add_option("--features", features, kFeaturesHelp)->capture_default_str();
   app.add_option("--hausdorff", options.hausdorff_limit_rel,
                  "Largest distance to the surface, both ways, as a fraction of its bounding-box "
                  "diagonal")
@@ -45,8 +46,9 @@ void TrialArguments::add_to(CLI::App& app) {
 
 SingleTrial::SingleTrial(Program& program, const TrialArguments& arguments)
     : mesh_(read_checked(program, arguments)),
-      surface_(arguments.surface.empty() ? make_reference_surface(mesh_)
-                                         : program.read_surface(arguments.surface)),
+      surface_(arguments.surface.empty()
+                   ? boundary_of(mesh_, parse_features(arguments.features))
+                   : program.read_surface(arguments.surface, parse_features(arguments.features))),
       distance_(mesh_, surface_),
       context_{mesh_,
                surface_,

@@ -11,10 +11,11 @@
 
 namespace hexweft::cli {
 
-/// --surface, --hausdorff, --min-scaled-jacobian, --mean-scaled-jacobian, --rings.
+/// --surface, --features, --hausdorff, --min-scaled-jacobian, --mean-scaled-jacobian, --rings.
 struct TrialArguments {
   SimplifyOptions options;
   std::string surface;  ///< empty: the boundary of the input
+  std::string features = "auto";
   void add_to(CLI::App& app);
 };
 

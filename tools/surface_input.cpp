@@ -1,19 +1,45 @@
 #include "tools/surface_input.h"
 
+#include <charconv>
+
 #include "io/file.h"
 #include "io/hex_mesh_io.h"
 #include "optimize/surface_io.h"
 
 namespace hexweft::cli {
+namespace {
+
+// Normals are averaged across edges less sharp than this; it has no say in what is a feature line.
+constexpr double kNormalAngle = 40;
+
+}  // namespace
 
 ReferenceSurface read_surface_input(const std::filesystem::path& path,
-                                    std::vector<std::string>& notes) {
-  if (is_surface_file(path)) return read_surface(path);
+                                    std::vector<std::string>& notes,
+                                    const FeatureOptions& features) {
+  if (is_surface_file(path)) return read_surface(path, kNormalAngle, features);
   ReadReport report;
   const HexMesh mesh = read_hex_mesh(path, {}, &report);
   notes.insert(notes.end(), report.notes.begin(), report.notes.end());
   if (mesh.n_cells() == 0) throw InputError(display_name(path, true) + ": has no hexahedra");
-  return make_reference_surface(mesh);
+  return boundary_of(mesh, features);
+}
+
+ReferenceSurface boundary_of(const HexMesh& mesh, const FeatureOptions& features) {
+  return make_reference_surface(mesh, kNormalAngle, features);
+}
+
+FeatureOptions parse_features(const std::string& text) {
+  if (text == "auto") return {};
+  if (text == "off") return {.mode = FeatureMode::off};
+  FeatureOptions options = {.mode = FeatureMode::angle};
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, options.angle_deg);
+  if (error != std::errc() || stop != end) {
+    throw InputError("--features = " + text + ", expected auto, off or an angle in degrees");
+  }
+  validate(options);
+  return options;
 }
 
 }  // namespace hexweft::cli

@@ -14,10 +14,21 @@ namespace hexweft::cli {
 inline constexpr const char* kSurfaceHelp =
     "a hexahedral mesh (its boundary counts), or a surface: .obj, .off, .ply, .stl";
 
-/// \param path   "-" is a mesh on standard input
-/// \param notes  what reading a mesh has to say is appended
+/// \param path      "-" is a mesh on standard input
+/// \param notes     what reading a mesh has to say is appended
+/// \param features  which lines and corners of it are held
 /// \throws FormatError if it cannot be read, InputError if a mesh has no cells
 ReferenceSurface read_surface_input(const std::filesystem::path& path,
-                                    std::vector<std::string>& notes);
+                                    std::vector<std::string>& notes,
+                                    const FeatureOptions& features = {});
+
+/// The boundary of a mesh that is at hand.
+ReferenceSurface boundary_of(const HexMesh& mesh, const FeatureOptions& features);
+
+/// The value of --features: auto, off, or an angle in degrees. \throws InputError
+FeatureOptions parse_features(const std::string& text);
+inline constexpr const char* kFeaturesHelp =
+    "Sharp edges and corners of the surface that are held: auto, off, or those bent by more than "
+    "this angle in degrees";
 
 }  // namespace hexweft::cli

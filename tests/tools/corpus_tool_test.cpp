@@ -120,7 +120,8 @@ TEST_F(CorpusTool, RefusesWhatItCannotUse) {
                                         {"in --jobs 0", 2},
                                         {"missing", 3},
                                         {"in/octree/ball.vtk", 3},
-                                        {"in --no-chords", 2}}) {
+                                        {"in --no-chords", 2},
+                                        {"in -o in", 2}}) {
     SCOPED_TRACE(arguments);
     const ToolRun result = run(std::string("hexweft-corpus ") + arguments);
     EXPECT_EQ(result.exit_code, code);

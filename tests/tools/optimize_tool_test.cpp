@@ -73,12 +73,33 @@ TEST_F(OptimizeTool, StaysOnAnotherSurface) {
   EXPECT_EQ(j["after"]["hausdorff_ratio"], distance["ratio"]);
 }
 
+TEST_F(OptimizeTool, FeaturesHoldTheEdgesOfABox) {
+  // A box whose cells are askew; its edges and corners have to stay where they are.
+  HexMesh mesh = make_grid({4, 4, 4});
+  mesh.set_point(VertexHandle(31), mesh.point(VertexHandle(31)) + Eigen::Vector3d(0.3, 0.2, 0.1));
+  write_hex_mesh(file("in.vtk"), mesh);
+  for (const char* features : {"auto", "30", "off"}) {
+    SCOPED_TRACE(features);
+    const ToolRun result =
+        run(std::string("hexweft-optimize in.vtk -o out.vtk --features ") + features);
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const HexMesh out = read_hex_mesh(file("out.vtk"));
+    EXPECT_GE(min_scaled_jacobian(out), min_scaled_jacobian(mesh));
+    if (features == std::string("off")) continue;
+    for (const int corner : {0, 4, 20, 24, 100, 104, 120, 124}) {
+      EXPECT_LT((out.point(VertexHandle(corner)) - mesh.point(VertexHandle(corner))).norm(), 1e-9);
+    }
+  }
+}
+
 TEST_F(OptimizeTool, RefusesWhatItCannotUse) {
   ASSERT_EQ(run("hexweft-generate grid -o in.vtk").exit_code, 0);
   for (const auto& [arguments, code] : {std::pair("in.vtk", 2),
                                         {"in.vtk -o out.vtk --energy no-such", 2},
                                         {"in.vtk -o out.vtk --hausdorff 0", 2},
                                         {"in.vtk -o out.vtk --iterations -1", 2},
+                                        {"in.vtk -o out.vtk --features sharp", 2},
+                                        {"in.vtk -o out.vtk --features 200", 2},
                                         {"in.vtk -o out.vtk --surface -", 2},
                                         {"in.vtk -o out.vtk --surface missing.stl", 3}}) {
     SCOPED_TRACE(arguments);
