@@ -21,41 +21,50 @@ EdgeModel make_edge_model(const double* terms) {
   return {{r0, r1, (g[2] - l20 * r0 - l21 * r1) / l22}, {l00, l10, l11, l20, l21, l22}};
 }
 
+constexpr std::uint64_t kUnmoved = ~std::uint64_t{0};
+
+/// An edge of one hexahedron, by its two vertices.
+struct EdgeUse {
+  std::uint64_t ends;  ///< lesser vertex · 2³² + greater one, or kUnmoved
+  int slot;            ///< 12 · hexahedron + edge
+};
+
+std::vector<EdgeUse> sorted_edge_uses(const RelaxationProblem& problem) {
+  std::vector<EdgeUse> uses;
+  uses.reserve(kHexEdges * problem.hexes.size());
+  for (const HexCorners& hex : problem.hexes) {
+    for (const auto& [from, to] : kEdgeCorners) {
+      const auto [low, high] = std::minmax(hex[from], hex[to]);
+      const bool moves = low < problem.n_free && low != high;
+      const std::uint64_t ends = (static_cast<std::uint64_t>(low) << 32) + high;
+      uses.push_back({moves ? ends : kUnmoved, static_cast<int>(uses.size())});
+    }
+  }
+  std::sort(uses.begin(), uses.end(), [](const EdgeUse& a, const EdgeUse& b) {
+    return a.ends != b.ends ? a.ends < b.ends : a.slot < b.slot;
+  });
+  return uses;
+}
+
 }  // namespace
 
 EdgeTable make_edge_table(const RelaxationProblem& problem) {
-  struct Use {
-    std::uint64_t ends;
-    int slot;  // 12 · hexahedron + edge
-    bool operator<(const Use& other) const {
-      return ends != other.ends ? ends < other.ends : slot < other.slot;
-    }
-  };
-  std::vector<Use> uses;
-  uses.reserve(12 * problem.hexes.size());
+  const std::vector<EdgeUse> uses = sorted_edge_uses(problem);
   EdgeTable table;
   table.of_hex.resize(problem.hexes.size());
-  for (std::size_t h = 0; h < problem.hexes.size(); ++h) {
-    for (int e = 0; e < kHexEdges; ++e) {
-      const auto [low, high] =
-          std::minmax(problem.hexes[h][kEdgeCorners[e][0]], problem.hexes[h][kEdgeCorners[e][1]]);
-      const std::uint64_t ends = (static_cast<std::uint64_t>(low) << 32) + high;
-      const bool moves = low < problem.n_free && low != high;
-      uses.push_back({moves ? ends : ~std::uint64_t{0}, static_cast<int>(12 * h) + e});
-    }
-  }
-  std::sort(uses.begin(), uses.end());
-  std::uint64_t last = ~std::uint64_t{0};
-  for (const Use& use : uses) {
-    const auto h = static_cast<std::size_t>(use.slot / 12);
-    const int e = use.slot % 12;
-    const int low = static_cast<int>(use.ends >> 32);
-    if (use.ends == ~std::uint64_t{0}) {
+  const EdgeUse* last = nullptr;
+  for (const EdgeUse& use : uses) {
+    const auto h = static_cast<std::size_t>(use.slot / kHexEdges);
+    const int e = use.slot % kHexEdges;
+    if (use.ends == kUnmoved) {  // these come last
       table.of_hex[h][e] = static_cast<int>(table.ends.size());
       continue;
     }
-    if (use.ends != last) table.ends.push_back({low, static_cast<int>(use.ends & 0xffffffff)});
-    last = use.ends;
+    const int low = static_cast<int>(use.ends >> 32);
+    if (!last || use.ends != last->ends) {
+      table.ends.push_back({low, static_cast<int>(use.ends & 0xffffffff)});
+    }
+    last = &use;
     const int edge = static_cast<int>(table.ends.size()) - 1;
     table.of_hex[h][e] = problem.hexes[h][kEdgeCorners[e][0]] == low ? edge : ~edge;
   }
