@@ -23,7 +23,7 @@
 namespace hexweft {
 
 struct ParametrizationOptions {
-  Energy energy = SymmetricDirichlet{};  ///< a barrier energy
+  Energy energy = InverseScaledJacobian{};  ///< a barrier energy
   int max_iterations = 5;                ///< > 0, each with new target shapes and a projection
   int relaxation_iterations = 10;        ///< > 0, L-BFGS steps in each
   int untangling_rounds = 15;        ///< ≥ 0, each with a smaller ε; 0: an inverted start fails

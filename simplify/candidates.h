@@ -6,8 +6,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "simplify/collapse_plan.h"
 #include "simplify/options.h"
+#include "simplify/plan_check.h"
 
 namespace hexweft {
 

@@ -53,107 +53,6 @@ class PlanBuilder {
   CollapsePlan plan_;
 };
 
-// group_of[v]: the group of each vertex, -1 for those of none.
-std::vector<int> groups_of_vertices(const HexMesh& mesh, const CollapsePlan& plan) {
-  std::vector<int> group_of(mesh.vertex_slots(), -1);
-  for (int g = 0; g < plan.n_groups(); ++g) {
-    for (VertexHandle v : plan.group(g)) group_of[v.idx] = g;
-  }
-  return group_of;
-}
-
-bool is_removed(const CollapsePlan& plan, CellHandle c) {
-  return std::binary_search(plan.removed.begin(), plan.removed.end(), c);
-}
-
-// A cell that stays must not have two vertices of one group.
-bool degenerates_a_cell(const HexMesh& mesh, const CollapsePlan& plan,
-                        const std::vector<int>& group_of) {
-  for (VertexHandle v : plan.members) {
-    for (CellHandle c : mesh.cells(v)) {
-      int of_this_group = 0;
-      for (VertexHandle w : mesh.vertices(c)) of_this_group += group_of[w.idx] == group_of[v.idx];
-      if (of_this_group > 1 && !is_removed(plan, c)) return true;
-    }
-  }
-  return false;
-}
-
-// The boundary vertices of a group must hang together through boundary sides that go away.
-bool glues_boundary(const HexMesh& mesh, const SingularityGraph& graph, const CollapsePlan& plan,
-                    const std::vector<int>& group_of) {
-  std::vector<int> position(mesh.vertex_slots(), -1);
-  for (std::size_t i = 0; i < plan.members.size(); ++i)
-    position[plan.members[i].idx] = static_cast<int>(i);
-  DisjointSets linked(static_cast<int>(plan.members.size()));
-  for (CellHandle c : plan.removed) {
-    for (HalfFaceHandle hf : mesh.halffaces(c)) {
-      if (!mesh.is_boundary(hf)) continue;
-      const QuadVertices quad = mesh.vertices(hf);
-      for (int i = 0; i < 4; ++i) {
-        for (int j = 0; j < i; ++j) {
-          const int a = position[quad[i].idx], b = position[quad[j].idx];
-          if (a >= 0 && b >= 0 && group_of[quad[i].idx] == group_of[quad[j].idx]) linked.join(a, b);
-        }
-      }
-    }
-  }
-  for (int g = 0; g < plan.n_groups(); ++g) {
-    int root = -1;
-    for (int i = plan.group_begin[g]; i < plan.group_begin[g + 1]; ++i) {
-      if (!graph.boundary_vertex[plan.members[i].idx]) continue;
-      if (root >= 0 && linked.find(i) != root) return true;
-      root = linked.find(i);
-    }
-  }
-  return false;
-}
-
-std::vector<PredictedEdge> predict(const HexMesh& mesh, const SingularityGraph& graph,
-                                   const CollapsePlan& plan, const std::vector<int>& group_of) {
-  const auto stand_in = [&](VertexHandle v) {
-    return group_of[v.idx] < 0 ? v : plan.members[plan.group_begin[group_of[v.idx]]];
-  };
-  std::vector<PredictedEdge> edges;
-  for (VertexHandle v : plan.members) {
-    for (EdgeHandle e : mesh.edges(v)) {
-      const auto ends = mesh.vertices(e);
-      VertexHandle a = stand_in(ends[0]), b = stand_in(ends[1]);
-      // An edge inside a group goes away; one between two groups is seen from its first end only.
-      if (a == b || (v == ends[1] && group_of[ends[0].idx] >= 0)) continue;
-      if (b < a) std::swap(a, b);
-      int surviving = 0;
-      for (CellHandle c : mesh.cells(e)) surviving += !is_removed(plan, c);
-      const int error = std::abs(graph.edge_valence[e.idx] - graph.regular_valence(e));
-      edges.push_back({a, b, surviving, graph.boundary_edge[e.idx] != 0, 1, error});
-    }
-  }
-  std::sort(edges.begin(), edges.end(), [](const PredictedEdge& x, const PredictedEdge& y) {
-    return std::pair(x.a, x.b) < std::pair(y.a, y.b);
-  });
-  std::size_t n = 0;
-  for (const PredictedEdge& e : edges) {
-    if (n > 0 && edges[n - 1].a == e.a && edges[n - 1].b == e.b) {
-      PredictedEdge& merged = edges[n - 1];
-      merged.valence += e.valence;
-      merged.boundary |= e.boundary;
-      merged.merged += 1;
-      merged.old_error = std::max(merged.old_error, e.old_error);
-    } else {
-      edges[n++] = e;
-    }
-  }
-  edges.resize(n);
-  return edges;
-}
-
-bool within(const PredictedEdge& e, const ValenceLimits& limits) {
-  if (e.boundary)
-    return e.valence >= 1 && (e.valence <= limits.max_boundary || e.error() <= e.old_error);
-  return e.valence >= limits.min_interior &&
-         (e.valence <= limits.max_interior || e.error() <= e.old_error);
-}
-
 }  // namespace
 
 CollapsePlan plan_sheet_collapse(const HexMesh& mesh, const BaseComplex& bc, const Sheet& sheet) {
@@ -323,26 +222,6 @@ CollapsePlan plan_chord_collapse(const HexMesh& mesh, const BaseComplex& bc, con
     fold(builder, bc, l, l.turned != (diagonal == Diagonal::second), remaining);
   }
   return builder.finish(side);
-}
-
-std::vector<PredictedEdge> predict_edges(const HexMesh& mesh, const SingularityGraph& graph,
-                                         const CollapsePlan& plan) {
-  return predict(mesh, graph, plan, groups_of_vertices(mesh, plan));
-}
-
-Refusal check_plan(const HexMesh& mesh, const SingularityGraph& graph, const CollapsePlan& plan,
-                   const ValenceLimits& limits) {
-  if (plan.removed.empty() || static_cast<int>(plan.removed.size()) == mesh.n_cells()) {
-    return Refusal::vanishing;
-  }
-  const std::vector<int> group_of = groups_of_vertices(mesh, plan);
-  for (const PredictedEdge& e : predict(mesh, graph, plan, group_of)) {
-    if (e.valence == 0) return Refusal::vanishing;
-    if (!within(e, limits)) return Refusal::valence;
-  }
-  if (degenerates_a_cell(mesh, plan, group_of)) return Refusal::degenerate_cell;
-  if (glues_boundary(mesh, graph, plan, group_of)) return Refusal::boundary;
-  return Refusal::none;
 }
 
 std::vector<VertexHandle> apply_plan(HexMesh& mesh, const CollapsePlan& plan,

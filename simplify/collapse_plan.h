@@ -38,37 +38,6 @@ CollapsePlan plan_chord_collapse(const HexMesh& mesh, const BaseComplex& bc, con
                                  Diagonal diagonal, const std::vector<Sheet>& sheets);
 Refusal can_plan(const BaseComplex& bc, const Chord& chord, const std::vector<Sheet>& sheets);
 
-/// A mesh edge that comes to be when a plan is carried out, by the vertices that stand for its ends
-/// (the first member of a group, or the vertex itself).
-struct PredictedEdge {
-  VertexHandle a, b;
-  int valence;  ///< cells at it
-  bool boundary;
-  int merged;     ///< mesh edges that fall together in it
-  int old_error;  ///< the largest |v - q| among them
-  int error() const {
-    return valence > (boundary ? 2 : 4) ? valence - (boundary ? 2 : 4)
-                                        : (boundary ? 2 : 4) - valence;
-  }
-};
-
-/// The edges at merged vertices after the collapse. Counting the cells that survive round a group;
-/// for two edges this is v_l + v_r - 4, or - 2 where the face between them is on the boundary
-/// (spec, "Corrections" to [Xu2021, Eq. 1]). Cost O(size of the plan) + a pass over the vertices.
-std::vector<PredictedEdge> predict_edges(const HexMesh& mesh, const SingularityGraph& graph,
-                                         const CollapsePlan& plan);
-
-/// Bounds on what a collapse may leave behind.
-struct ValenceLimits {
-  int min_interior = 3;
-  int max_interior = 6;  ///< raised where an edge of the group already exceeds it
-  int max_boundary = 5;
-};
-
-/// What can be said against a plan without moving anything; Refusal::none is no promise.
-Refusal check_plan(const HexMesh& mesh, const SingularityGraph& graph, const CollapsePlan& plan,
-                   const ValenceLimits& limits = {});
-
 /// Carries the plan out: removes the cells, merges each group in its first member and puts it on
 /// `targets` (one per group). Use inside a Transaction.
 /// \return the merged vertices that are left

@@ -7,7 +7,7 @@
 #include <stop_token>
 
 #include "optimize/local_parametrization.h"
-#include "simplify/collapse_plan.h"
+#include "simplify/plan_check.h"
 #include "simplify/rank.h"
 
 namespace hexweft {
@@ -17,7 +17,8 @@ struct SimplifyProgress {
   int step = 0;  ///< accepted steps so far
   int hexahedra = 0, components = 0, input_components = 0;
   double hausdorff_ratio = 0;  ///< of the bounding-box diagonal, at the loop's sampling
-  double seconds = 0;          ///< since the start
+  double min_scaled_jacobian = 1, mean_scaled_jacobian = 1;
+  double seconds = 0;  ///< since the start
 };
 
 /// When to stop simplifying and what to preserve.

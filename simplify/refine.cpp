@@ -40,6 +40,23 @@ std::vector<Measured> measure(const HexMesh& mesh, const std::vector<DualSheet>&
   return result;
 }
 
+// The split alone leaves the surface as it is; relaxed, the new vertices meet it better. A split
+// changes no shape by much: a narrow region and few iterations do. Kept only where it does no harm.
+void relax_added(TrialContext& context, std::span<const VertexHandle> added,
+                 const SimplifyOptions& options) {
+  HexMesh& mesh = context.mesh;
+  const std::vector<CellHandle> region = cells_around(mesh, added, (options.rings + 1) / 2);
+  const Quality before = measure_quality(mesh, region);
+  ParametrizationOptions parametrization = options.parametrization;
+  parametrization.max_iterations = 1;
+  parametrization.min_scaled_jacobian = std::min(options.min_scaled_jacobian, before.least);
+  Transaction relaxed(mesh);
+  if (!parametrize(mesh, region, context.reference, parametrization).valid()) return;
+  if (!stays_on_surface(context, region)) return;
+  context.distance.commit();
+  relaxed.commit();
+}
+
 }  // namespace
 
 std::optional<DualSheet> choose_sheet_to_refine(const HexMesh& mesh,
@@ -73,20 +90,15 @@ bool try_refine(TrialContext& context, const DualSheet& sheet, const SimplifyOpt
   Transaction trial(mesh);
   const SheetSplit split = split_sheet(mesh, sheet);
   std::vector<VertexHandle> added;
-  for (const SplitVertex& s : split.vertices) {
-    added.push_back(s.vertex);
-  }
-  // A split changes no shape by much: a narrow region and few iterations do.
-  const std::vector<CellHandle> region = cells_around(mesh, added, (options.rings + 1) / 2);
-  ParametrizationOptions parametrization = options.parametrization;
-  parametrization.max_iterations = 1;
-  parametrization.min_scaled_jacobian = floor * (1 - 1e-9);
-  if (!parametrize(mesh, region, context.reference, parametrization).valid()) return false;
-  std::vector<CellHandle> touched = region;
+  for (const SplitVertex& s : split.vertices) added.push_back(s.vertex);
+  const std::vector<CellHandle> around = cells_around(mesh, added, 1);
+  if (measure_quality(mesh, around).least < floor * (1 - 1e-9)) return false;
+  std::vector<CellHandle> touched = around;
   touched.insert(touched.end(), split.removed.begin(), split.removed.end());
   if (!stays_on_surface(context, touched)) return false;
   context.distance.commit();
   trial.commit();
+  relax_added(context, added, options);
   return true;
 }
 

@@ -11,6 +11,7 @@ enum class Refusal {
   none,
   // decided from the base complex
   valence,          ///< an edge would get too few or too many cells
+  angle,            ///< a single cell would have to fill a wide angle of the boundary
   boundary,         ///< two different stretches of the boundary would be glued
   feature,          ///< two features would be merged
   degenerate_cell,  ///< a cell that stays would lose an edge
@@ -33,9 +34,9 @@ constexpr bool is_geometric(Refusal r) { return r >= Refusal::inverted; }
 
 constexpr std::string_view name(Refusal r) {
   constexpr std::array<std::string_view, kRefusals> names = {
-      "none",          "valence",  "boundary",     "feature",   "degenerate_cell",
-      "unequal_sides", "twisted",  "not_singular", "vanishing", "topology",
-      "structure",     "inverted", "quality",      "hausdorff"};
+      "none",          "valence", "angle",        "boundary",  "feature",  "degenerate_cell",
+      "unequal_sides", "twisted", "not_singular", "vanishing", "topology", "structure",
+      "inverted",      "quality", "hausdorff"};
   return names[static_cast<std::size_t>(r)];
 }
 

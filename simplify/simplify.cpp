@@ -35,10 +35,11 @@ void check_input(const HexMesh& mesh) {
 
 // The loop samples the surface less densely than the last check: it keeps this share of the limit.
 constexpr double kLoopShare = 0.95;
-// Below these shares of the wanted count of cells a sheet is split: in the loop, where every cell
-// costs time and a later collapse takes many away again, and at the end.
-constexpr double kRefineBelow = 0.75;
-constexpr double kFillUpTo = 0.8;
+// Below this share of the wanted count of cells sheets that are as long across as the mean edge are
+// split, a few at a time: with too few cells nothing stays on the surface, but every one costs time.
+constexpr double kRefineBelow = 0.9;
+constexpr double kLongAcross = 1.0;
+constexpr int kSplitsAtOnce = 5;
 // Up to this share sheets are split when nothing else goes on.
 constexpr double kMostCells = 1.1;
 // A verified copy of the mesh is kept whenever the components have fallen by this factor.
@@ -73,11 +74,13 @@ class Run {
     // Splitting a sheet comes before a second look at what failed lately: it gives that more room.
     const double long_enough = RefineOptions().min_length_rel;
     while (!should_stop()) {
-      if (is_short_of_cells(kRefineBelow)) refine(long_enough);
+      for (int i = 0; i < kSplitsAtOnce && is_short_of_cells(kRefineBelow); ++i) {
+        if (!refine(kLongAcross)) break;
+      }
       if (!collapse_one(true) && !refine(long_enough, kMostCells) && !collapse_one(false)) break;
     }
     if (report_.stopped != StopReason::interrupted) {
-      while (is_short_of_cells(kFillUpTo) && refine(0)) {
+      while (is_short_of_cells(kRefineBelow) && refine(0)) {
       }
     }
     finish();
@@ -153,10 +156,16 @@ class Run {
     not_refinable_.clear();
     if (static_cast<double>(bc_.components.size()) <= kVerifyEvery * verified_components_) verify();
     if (mesh_.cell_slots() > 4 * mesh_.n_cells()) compact();
-    if (options_.observer) {
-      options_.observer({step_, mesh_.n_cells(), static_cast<int>(bc_.components.size()),
-                         report_.before.components, distance_.ratio(), seconds()});
-    }
+    if (options_.observer) observe();
+  }
+
+  void observe() const {
+    std::vector<CellHandle> all;
+    for (CellHandle c : mesh_.cells()) all.push_back(c);
+    const Quality now = measure_quality(mesh_, all);
+    options_.observer({step_, mesh_.n_cells(), static_cast<int>(bc_.components.size()),
+                       report_.before.components, distance_.ratio(), now.least, now.mean,
+                       seconds()});
   }
 
   bool within_limit() const { return is_within(mesh_, reference_, context_.final_limit); }
@@ -206,7 +215,10 @@ class Run {
     const double target = options_.target_hexahedra_rel * report_.before.hexahedra;
     refine.max_cells = static_cast<int>(
         std::max(1.5 * (target - mesh_.n_cells()), most_cells_rel * target - mesh_.n_cells()));
-    while (const auto sheet = choose_sheet_to_refine(mesh_, distance_, refine, not_refinable_)) {
+    constexpr int kTries = 4;  // what makes one split fail holds for most others
+    for (int i = 0; i < kTries; ++i) {
+      const auto sheet = choose_sheet_to_refine(mesh_, distance_, refine, not_refinable_);
+      if (!sheet) break;
       if (try_refine(context_, *sheet, options_)) {
         ++report_.refined;
         not_refinable_.clear();

@@ -14,20 +14,6 @@ int euler_of_live(const HexMesh& mesh) {
   return mesh.n_vertices() - mesh.n_edges() + mesh.n_faces() - mesh.n_cells();
 }
 
-// Least and mean scaled Jacobian of some cells.
-struct Quality {
-  double least = 1, mean = 1;
-};
-Quality measure(const HexMesh& mesh, std::span<const CellHandle> cells) {
-  Quality q{1, 0};
-  for (CellHandle c : cells) {
-    const double sj = scaled_jacobian(mesh, c);
-    q.least = std::min(q.least, sj);
-    q.mean += sj / static_cast<double>(cells.size());
-  }
-  return q;
-}
-
 Refusal check_topology_after(const HexMesh& mesh, std::span<const VertexHandle> left, int euler) {
   if (left.empty()) return Refusal::vanishing;
   if (euler_of_live(mesh) != euler) return Refusal::topology;
@@ -89,6 +75,16 @@ Refusal relax_region(TrialContext& context, std::span<const CellHandle> region,
 
 }  // namespace
 
+Quality measure_quality(const HexMesh& mesh, std::span<const CellHandle> cells) {
+  Quality q{1, 0};
+  for (CellHandle c : cells) {
+    const double sj = scaled_jacobian(mesh, c);
+    q.least = std::min(q.least, sj);
+    q.mean += sj / static_cast<double>(cells.size());
+  }
+  return q;
+}
+
 bool stays_on_surface(TrialContext& context, std::span<const CellHandle> touched) {
   constexpr double kClose = 0.9;  // of the limit; below it the loop's samples have never missed it
   const double limit = context.distance_limit;
@@ -110,7 +106,7 @@ bool relieve_farthest(TrialContext& context, const SimplifyOptions& options) {
   const auto worst = std::max_element(by_side.begin(), by_side.end());
   const auto side = mesh.vertices(HalfFaceHandle(static_cast<int>(worst - by_side.begin())));
   const std::vector<CellHandle> region = cells_around(mesh, side, options.rings);
-  const Quality old = measure(mesh, region);
+  const Quality old = measure_quality(mesh, region);
   ParametrizationOptions p = options.parametrization;
   p.min_scaled_jacobian = std::min(options.min_scaled_jacobian, old.least);
   Transaction attempt(mesh);
@@ -160,7 +156,7 @@ TrialResult try_collapse(TrialContext& context, const BaseComplex& bc, const Col
   const int euler = euler_of_live(mesh);
   const std::vector<CellHandle> before =
       cells_around(mesh, plan.members, options.rings * plan.width);
-  const Quality old = measure(mesh, before);
+  const Quality old = measure_quality(mesh, before);
   Transaction trial(mesh);
   const auto left = apply_plan(mesh, plan, default_targets(mesh, bc.graph, plan));
   result.refusal = check_topology_after(mesh, left, euler);

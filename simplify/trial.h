@@ -7,8 +7,8 @@
 #include "optimize/reference_surface.h"
 #include "optimize/surface_distance.h"
 #include "ovm/topology_summary.h"
-#include "simplify/collapse_plan.h"
 #include "simplify/options.h"
+#include "simplify/plan_check.h"
 
 namespace hexweft {
 
@@ -22,6 +22,12 @@ struct TrialContext {
   double final_limit;     ///< model units, at full sampling
   bool parallel = false;  ///< may use a second thread
 };
+
+/// Least and mean scaled Jacobian of some cells.
+struct Quality {
+  double least = 1, mean = 1;
+};
+Quality measure_quality(const HexMesh& mesh, std::span<const CellHandle> cells);
 
 struct TrialResult {
   Refusal refusal = Refusal::none;

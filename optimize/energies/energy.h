@@ -33,6 +33,9 @@ namespace hexweft {
 ///     void residual(const Deformation<double>&, Mat3<double>& r) const;
 ///     Mat3<double> residual_change(const Deformation<double>&, int column, int axis) const;
 /// with |r|² = value − minimum, and its derivative along e_axis e_columnᵀ: the residual blocks take it.
+/// One that knows the axes of the target cuboid, so that a rotation on their side changes it, says
+///     static constexpr bool isotropic = false;
+/// and its d_sigma holds for J = diag(σ) alone.
 template <class E>
 concept DistortionEnergy = requires(const E& e, const Deformation<double>& d, Mat3<double>& stress,
                                     const Eigen::Vector3d& sigma) {
@@ -60,6 +63,7 @@ class EnergyModel {
 
   virtual std::string_view name() const = 0;
   virtual bool barrier() const = 0;
+  virtual bool isotropic() const = 0;
   virtual double minimum() const = 0;
   virtual double value_and_stress(const Deformation<double>& d, Mat3<double>& stress) const = 0;
   virtual Curvature<double> curvature(const Deformation<double>& d) const = 0;
@@ -85,6 +89,13 @@ class EnergyModelOf final : public EnergyModel {
 
   std::string_view name() const override { return E::name; }
   bool barrier() const override { return E::barrier; }
+  bool isotropic() const override {
+    if constexpr (requires { E::isotropic; }) {
+      return E::isotropic;
+    } else {
+      return true;
+    }
+  }
   double minimum() const override { return energy_.minimum(); }
   double value_and_stress(const Deformation<double>& d, Mat3<double>& stress) const override {
     return energy_.value_and_stress(d, stress);
@@ -130,6 +141,7 @@ class Energy {
 
   std::string_view name() const { return model_->name(); }
   bool barrier() const { return model_->barrier(); }
+  bool isotropic() const { return model_->isotropic(); }
   double minimum() const { return model_->minimum(); }
   double value_and_stress(const Deformation<double>& d, Mat3<double>& stress) const {
     return model_->value_and_stress(d, stress);

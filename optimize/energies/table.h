@@ -13,6 +13,7 @@
 #include "optimize/energies/exponential_symmetric_dirichlet.h"
 #include "optimize/energies/foldover_free.h"
 #include "optimize/energies/hencky.h"
+#include "optimize/energies/inverse_scaled_jacobian.h"
 #include "optimize/energies/log_dirichlet.h"
 #include "optimize/energies/mean_ratio.h"
 #include "optimize/energies/symmetric_dirichlet.h"
@@ -28,6 +29,7 @@
   ROW(LogDirichlet)                   \
   ROW(Hencky)                         \
   ROW(MeanRatio)                      \
+  ROW(InverseScaledJacobian)          \
   ROW(FoldoverFree)
 // clang-format on
 

@@ -68,7 +68,7 @@ TEST_P(EveryEnergy, HasItsMinimumAtRotations) {
   }
 }
 
-TEST_P(EveryEnergy, DoesNotFeelRotationsOfEitherSide) {
+TEST_P(EveryEnergy, DoesNotFeelRotationsNorIfIsotropicThoseOfTheTarget) {
   Random random(2);
   for (int i = 0; i < 50; ++i) {
     const Eigen::Matrix3d j = random_jacobian(random), r = random.rotation();
@@ -76,6 +76,7 @@ TEST_P(EveryEnergy, DoesNotFeelRotationsOfEitherSide) {
     const double value = value_and_stress(GetParam(), j, &stress);
     EXPECT_NEAR(value_and_stress(GetParam(), r * j, &turned), value, 1e-10 * (1 + value));
     EXPECT_LT((turned - r * stress).norm(), 1e-9 * (1 + stress.norm()));
+    if (!GetParam().isotropic()) continue;
     EXPECT_NEAR(value_and_stress(GetParam(), j * r, &turned), value, 1e-10 * (1 + value));
     EXPECT_LT((turned - stress * r).norm(), 1e-9 * (1 + stress.norm()));
   }
@@ -105,7 +106,9 @@ TEST_P(EveryEnergy, DerivativeBySingularValuesAgreesWithStressAndDifferences) {
   for (int i = 0; i < 50; ++i) {
     const Eigen::Vector3d sigma(random.uniform(0.5, 2), random.uniform(0.5, 2),
                                 random.uniform(0.5, 2));
-    const Eigen::Matrix3d u = random.rotation(), v = random.rotation();
+    const Eigen::Matrix3d u = random.rotation();
+    const Eigen::Matrix3d v =
+        GetParam().isotropic() ? random.rotation() : Eigen::Matrix3d::Identity();
     Eigen::Matrix3d stress;
     const double value =
         value_and_stress(GetParam(), u * sigma.asDiagonal() * v.transpose(), &stress);
@@ -181,7 +184,8 @@ TEST_P(EveryEnergy, CurvatureModelIsAboutTheSecondDerivativeAtRest) {
     const auto d = make_deformation(columns(r));
     const double model = modelled(GetParam().curvature(d), d, u, g);
     EXPECT_GT(model, 0.9 * second);
-    EXPECT_LT(model, 3.1 * second);
+    // Where only lengths change, an energy of the angles does not change.
+    if (GetParam().isotropic()) EXPECT_LT(model, 3.1 * second);
   }
 }
 

@@ -1,5 +1,5 @@
 // Plans, and what they predict, against the mesh after the collapse.
-#include "simplify/collapse_plan.h"
+#include "simplify/plan_check.h"
 
 #include <set>
 

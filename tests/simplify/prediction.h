@@ -10,7 +10,7 @@
 #include "ovm/topology_check.h"
 #include "ovm/topology_summary.h"
 #include "ovm/transaction.h"
-#include "simplify/collapse_plan.h"
+#include "simplify/plan_check.h"
 #include "tests/ovm/mesh_dump.h"
 
 namespace hexweft {

@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-#include "simplify/collapse_plan.h"
+#include "simplify/plan_check.h"
 #include "tests/mesh_families.h"
 #include "tests/simplify/test_meshes.h"
 
@@ -81,6 +81,28 @@ TEST(Refusal, ValenceLimitsAreOptions) {
     // What is no worse than before may exceed the upper limit.
     EXPECT_EQ(check_plan(mesh, bc.graph, plan, {.max_interior = 3}), Refusal::none);
   }
+}
+
+// Of the ring of cells round the core of a cylinder.
+Refusal refusal_of_ring(int n_core, const ValenceLimits& limits) {
+  const HexMesh mesh = make_o_grid({.n_core = n_core});
+  const BaseComplex bc = extract_base_complex(mesh);
+  for (const Sheet& s : extract_sheets(bc)) {
+    if (s.crossings.size() != 4) continue;
+    return check_plan(mesh, bc.graph, plan_sheet_collapse(mesh, bc, s), limits);
+  }
+  ADD_FAILURE() << "no ring";
+  return Refusal::none;
+}
+
+TEST(Refusal, LoneCellsInAWideAngleOfTheBoundaryAreAngle) {
+  // Without the ring the core's four edges lie on the outline alone, where its sides, 4 n_core of
+  // them, turn by 360 / (4 n_core) degrees.
+  EXPECT_EQ(refusal_of_ring(4, {}), Refusal::angle);
+  EXPECT_EQ(refusal_of_ring(4, {.max_angle_deg = 157}), Refusal::angle);
+  EXPECT_EQ(refusal_of_ring(4, {.max_angle_deg = 158}), Refusal::none);
+  EXPECT_EQ(refusal_of_ring(4, {.max_angle_deg = 360}), Refusal::none);
+  EXPECT_EQ(refusal_of_ring(1, {}), Refusal::none);
 }
 
 TEST(Refusal, CellWithTwoVerticesOfAGroupIsDegenerate) {
