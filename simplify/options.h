@@ -23,6 +23,7 @@ struct SimplifyProgress {
 
 /// When to stop simplifying and what to preserve.
 struct SimplifyOptions {
+  Ranking ranking = Ranking::weighted;  ///< by what the candidates are ordered
   RankingWeights weights = octree_weights();
   bool chords = true;  ///< collapse chords between sheets
 
@@ -39,6 +40,7 @@ struct SimplifyOptions {
   double give_up_factor = 2;  ///< >= 1; half relaxed and so many limits away, a trial ends
   double max_chord_deviation = 0.9;  ///< > 0, D(c) / 3k of a chord that is tried
   ValenceLimits valence = {};
+  FeatureOptions features = {};  ///< sharp edges and corners of the input's surface that are held
   ParametrizationOptions parametrization = {.max_iterations = 4,
                                             .surface = {.treatment = SurfaceTreatment::fit}};
 

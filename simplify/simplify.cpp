@@ -33,6 +33,8 @@ void check_input(const HexMesh& mesh) {
   }
 }
 
+// Normals are averaged across edges less sharp than this; it has no say in what is a feature line.
+constexpr double kNormalAngle = 40;
 // The loop samples the surface less densely than the last check: it keeps this share of the limit.
 constexpr double kLoopShare = 0.95;
 // Below this share of the wanted count of cells sheets that are as long across as the mean edge are
@@ -52,7 +54,7 @@ class Run {
       : mesh_(mesh),
         options_(options),
         start_(Clock::now()),
-        reference_(make_reference_surface(mesh)),
+        reference_(make_reference_surface(mesh, kNormalAngle, options.features)),
         distance_(mesh, reference_),
         context_{mesh,
                  reference_,
@@ -110,7 +112,7 @@ class Run {
 
   // Tries candidates in order until one is accepted. A patient round leaves out what failed lately.
   bool collapse_one(bool patient) {
-    const CandidateQueues q = make_queues(mesh_, bc_, options_);
+    const CandidateQueues q = make_queues(mesh_, bc_, options_, options_.ranking);
     return collapse_sheet(q, patient) || collapse_chord(q, patient);
   }
 

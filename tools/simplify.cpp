@@ -9,6 +9,7 @@
 #include "tools/progress_line.h"
 #include "tools/ranking_arguments.h"
 #include "tools/signal_watch.h"
+#include "tools/surface_input.h"
 
 namespace hexweft {
 namespace {
@@ -16,6 +17,7 @@ namespace {
 struct Request {
   SimplifyOptions options;
   cli::RankingArguments ranking;
+  std::string features = "auto";
   bool no_chords = false;
   std::optional<double> max_seconds, target_rate;
   std::optional<int> target_components;
@@ -41,7 +43,8 @@ void add_options(CLI::App& app, Request& r) {
   app.add_option("--components", r.target_components, "Stop at this many components");
   app.add_option("--seconds", r.max_seconds, "Stop collapsing after this long");
   app.add_flag("--no-chords", r.no_chords, "Collapse sheets only");
-  r.ranking.add_weights_to(app);
+  app.add_option("--features", r.features, cli::kFeaturesHelp)->capture_default_str();
+  r.ranking.add_to(app);
   cli::add_filter_options(app, o);
 }
 
@@ -52,7 +55,9 @@ std::string text_of(const SimplifyProgress& p) {
 
 int run(cli::Program& program, Request& request) {
   SimplifyOptions& o = request.options;
+  o.ranking = request.ranking.ranking();
   o.weights = request.ranking.weights();
+  o.features = cli::parse_features(request.features);
   o.chords = !request.no_chords;
   o.max_seconds = request.max_seconds;
   o.target_rate = request.target_rate;

@@ -44,6 +44,11 @@ INSTANTIATE_TEST_SUITE_P(
                     BadOption{"mean_scaled_jacobian", [](O& o) { o.mean_scaled_jacobian = 1; }},
                     BadOption{"mean_scaled_jacobian", [](O& o) { o.mean_scaled_jacobian = kNaN; }},
                     BadOption{"target_hexahedra_rel", [](O& o) { o.target_hexahedra_rel = 0; }},
+                    BadOption{"beta", [](O& o) { o.weights.beta = -1; }},
+                    BadOption{"angle_deg",
+                              [](O& o) {
+                                o.features = {FeatureMode::angle, 200};
+                              }},
                     BadOption{"rings", [](O& o) { o.rings = 0; }},
                     BadOption{"give_up_factor", [](O& o) { o.give_up_factor = 0.5; }},
                     BadOption{"max_chord_deviation", [](O& o) { o.max_chord_deviation = -1; }},

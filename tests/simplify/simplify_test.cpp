@@ -176,6 +176,18 @@ TEST(Simplify, WithoutChordsOnlySheetsGo) {
   EXPECT_EQ(report.after.components, 1);
 }
 
+TEST(Simplify, ThinnestFirstIsAnotherOrder) {
+  const HexMesh input = make_small_sphere();
+  SimplifyOptions options;
+  options.ranking = Ranking::thickness;
+  HexMesh mesh = input, weighted = input;
+  const SimplifyReport report = simplify(mesh, options);
+  expect_good_output(input, mesh, report);
+  EXPECT_LT(report.after.components, report.before.components);
+  simplify(weighted);
+  EXPECT_FALSE(content(mesh) == content(weighted));
+}
+
 TEST(Simplify, SameInputTwiceGivesTheSameBits) {
   std::array<MeshContent, 2> results;
   for (MeshContent& result : results) {

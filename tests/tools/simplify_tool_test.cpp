@@ -88,7 +88,9 @@ TEST_F(SimplifyTool, RefusesWhatItCannotUse) {
   ASSERT_EQ(run("hexweft-generate grid -o grid.vtk").exit_code, 0);
   for (const std::string arguments :
        {"grid.vtk", "grid.vtk -o out.vtk --hausdorff 2", "grid.vtk -o out.vtk --rate -1",
-        "grid.vtk -o out.vtk --preset cube", "grid.vtk -o out.vtk --threads 0"}) {
+        "grid.vtk -o out.vtk --preset cube", "grid.vtk -o out.vtk --ranking height",
+        "grid.vtk -o out.vtk --features sharp", "grid.vtk -o out.vtk --beta -1",
+        "grid.vtk -o out.vtk --threads 0"}) {
     SCOPED_TRACE(arguments);
     const ToolRun result = run("hexweft-simplify " + arguments);
     EXPECT_EQ(result.exit_code, 2);
