@@ -32,7 +32,7 @@ struct SimplifyOptions {
                                       ///< and what it found there
   double mean_scaled_jacobian = 0.7;  ///< [0, 1); the same for the mean over the region
   double target_hexahedra_rel = 1.0;  ///< > 0, of the input's count; below it sheets are refined
-  int rings = 4;                      ///< > 0, rings of cells round a collapse that move, per layer
+  int rings = 3;                      ///< > 0, rings of cells round a collapse that move, per layer
   int threads =
       1;  ///< > 0; two are used, for the two directions of distance checks at full sampling
   bool smooth = true;         ///< global smoothing at the end

@@ -40,21 +40,23 @@ std::vector<Measured> measure(const HexMesh& mesh, const std::vector<DualSheet>&
   return result;
 }
 
-// The split alone leaves the surface as it is; relaxed, the new vertices meet it better. A split
-// changes no shape by much: a narrow region and few iterations do. Kept only where it does no harm.
-void relax_added(TrialContext& context, std::span<const VertexHandle> added,
-                 const SimplifyOptions& options) {
+// Relaxes the new vertices, which then meet the surface better. A split changes no shape by much: a
+// narrow region and few iterations do. Kept, with the split, only where it does no harm.
+bool relax_added(TrialContext& context, std::span<const VertexHandle> added,
+                 std::span<const CellHandle> removed, const SimplifyOptions& options) {
   HexMesh& mesh = context.mesh;
   const std::vector<CellHandle> region = cells_around(mesh, added, (options.rings + 1) / 2);
-  const Quality before = measure_quality(mesh, region);
-  ParametrizationOptions parametrization = options.parametrization;
-  parametrization.max_iterations = 1;
-  parametrization.min_scaled_jacobian = std::min(options.min_scaled_jacobian, before.least);
+  ParametrizationOptions p = options.parametrization;
+  p.max_iterations = 1;
+  p.min_scaled_jacobian =
+      std::min(options.min_scaled_jacobian, measure_quality(mesh, region).least);
   Transaction relaxed(mesh);
-  if (!parametrize(mesh, region, context.reference, parametrization).valid()) return;
-  if (!stays_on_surface(context, region)) return;
-  context.distance.commit();
+  if (!parametrize(mesh, region, context.reference, p).valid()) return false;
+  std::vector<CellHandle> touched = region;
+  touched.insert(touched.end(), removed.begin(), removed.end());
+  if (!stays_on_surface(context, touched)) return false;
   relaxed.commit();
+  return true;
 }
 
 }  // namespace
@@ -93,12 +95,17 @@ bool try_refine(TrialContext& context, const DualSheet& sheet, const SimplifyOpt
   for (const SplitVertex& s : split.vertices) added.push_back(s.vertex);
   const std::vector<CellHandle> around = cells_around(mesh, added, 1);
   if (measure_quality(mesh, around).least < floor * (1 - 1e-9)) return false;
-  std::vector<CellHandle> touched = around;
-  touched.insert(touched.end(), split.removed.begin(), split.removed.end());
-  if (!stays_on_surface(context, touched)) return false;
-  context.distance.commit();
-  trial.commit();
-  relax_added(context, added, options);
+  if (!relax_added(context, added, split.removed, options)) {
+    // The split alone leaves the surface as it is, but for warped sides.
+    std::vector<CellHandle> touched = around;
+    touched.insert(touched.end(), split.removed.begin(), split.removed.end());
+    const double limit = context.distance_limit;
+    if (context.distance.after_change(mesh, touched, limit) > limit) {
+      context.distance.rollback();
+      return false;
+    }
+  }
+  commit(context, trial);
   return true;
 }
 

@@ -5,7 +5,7 @@
 #include "optimize/hausdorff.h"
 #include "ovm/quality.h"
 #include "ovm/topology_check.h"
-#include "ovm/transaction.h"
+#include "simplify/feature_targets.h"
 
 namespace hexweft {
 namespace {
@@ -73,7 +73,22 @@ Refusal relax_region(TrialContext& context, std::span<const CellHandle> region,
   return Refusal::none;
 }
 
+// Empty if the plan does away with a feature.
+std::optional<std::vector<Eigen::Vector3d>> targets_of(TrialContext& context, const BaseComplex& bc,
+                                                       const CollapsePlan& plan) {
+  const FeatureCurves& curves = context.reference.curves();
+  if (curves.n_lines() == 0) return default_targets(context.mesh, bc.graph, plan);
+  if (!context.labels) context.labels = feature_of(context.reference, context.mesh);
+  return feature_targets(context.mesh, bc.graph, plan, *context.labels, curves);
+}
+
 }  // namespace
+
+void commit(TrialContext& context, Transaction& change) {
+  context.distance.commit();
+  context.labels.reset();
+  change.commit();
+}
 
 Quality measure_quality(const HexMesh& mesh, std::span<const CellHandle> cells) {
   Quality q{1, 0};
@@ -115,8 +130,7 @@ bool relieve_farthest(TrialContext& context, const SimplifyOptions& options) {
     context.distance.rollback();
     return false;
   }
-  context.distance.commit();
-  attempt.commit();
+  commit(context, attempt);
   return true;
 }
 
@@ -153,12 +167,17 @@ TrialResult try_collapse(TrialContext& context, const BaseComplex& bc, const Col
   result.refusal = check_plan(mesh, bc.graph, plan, options.valence);
   if (!result.accepted()) return result;
 
+  const auto targets = targets_of(context, bc, plan);
+  if (!targets) {
+    result.refusal = Refusal::feature;
+    return result;
+  }
   const int euler = euler_of_live(mesh);
   const std::vector<CellHandle> before =
       cells_around(mesh, plan.members, options.rings * plan.width);
   const Quality old = measure_quality(mesh, before);
   Transaction trial(mesh);
-  const auto left = apply_plan(mesh, plan, default_targets(mesh, bc.graph, plan));
+  const auto left = apply_plan(mesh, plan, *targets);
   result.refusal = check_topology_after(mesh, left, euler);
   if (!result.accepted()) return result;
   BaseComplex after = extract_base_complex(mesh);
@@ -167,15 +186,8 @@ TrialResult try_collapse(TrialContext& context, const BaseComplex& bc, const Col
     return result;
   }
 
-  // A region that reaches a place already near the limit may fail there; a smaller one stays away.
-  std::vector<CellHandle> region;
-  for (const int rings : {options.rings, (options.rings + 1) / 2}) {
-    Transaction geometry(mesh);
-    region = cells_around(mesh, left, rings * plan.width);
-    result.refusal = relax_region(context, region, plan, old, options);
-    if (result.accepted()) geometry.commit();
-    if (result.refusal != Refusal::hausdorff) break;
-  }
+  const std::vector<CellHandle> region = cells_around(mesh, left, options.rings * plan.width);
+  result.refusal = relax_region(context, region, plan, old, options);
   if (!result.accepted()) return result;
   // The Euler number is kept; a hole that moved from one part to another shows only here.
   if (!same_shape(context.shape, summarize_topology(mesh))) {
@@ -183,10 +195,9 @@ TrialResult try_collapse(TrialContext& context, const BaseComplex& bc, const Col
     result.refusal = Refusal::topology;
     return result;
   }
-  context.distance.commit();
-  trial.commit();
+  commit(context, trial);
   result.base_complex = std::move(after);
-  result.region = std::move(region);
+  result.region = region;
   return result;
 }
 

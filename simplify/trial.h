@@ -2,11 +2,14 @@
 /// One attempt at a collapse: edit, parametrization, checks; kept or undone.
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "optimize/feature_assignment.h"
 #include "optimize/reference_surface.h"
 #include "optimize/surface_distance.h"
 #include "ovm/topology_summary.h"
+#include "ovm/transaction.h"
 #include "simplify/options.h"
 #include "simplify/plan_check.h"
 
@@ -21,6 +24,8 @@ struct TrialContext {
   double distance_limit;  ///< model units, at the sampling of `distance`
   double final_limit;     ///< model units, at full sampling
   bool parallel = false;  ///< may use a second thread
+  /// Features of the mesh's vertices, where they have been asked for since it changed last.
+  std::optional<std::vector<FeatureLabel>> labels = {};
 };
 
 /// Least and mean scaled Jacobian of some cells.
@@ -40,6 +45,9 @@ struct TrialResult {
 /// plan, the topology, the new base complex, the parametrization, the distance.
 TrialResult try_collapse(TrialContext& context, const BaseComplex& bc, const CollapsePlan& plan,
                          const SimplifyOptions& options);
+
+/// Makes an accepted change of the mesh and its distance final.
+void commit(TrialContext& context, Transaction& change);
 
 /// Brings the distance up to the mesh after a change of these cells, dead or alive, and checks it
 /// against the limits; where it is close, at full sampling. Over one, the distance is rolled back.

@@ -29,7 +29,7 @@ TEST_F(OptimizeTool, ImprovesAnOctreeLikeMeshOnItsSurface) {
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(result.err, "");
   const Json j = Json::parse(read_file(file("r.json")));
-  EXPECT_EQ(j["energy"], "symmetric-dirichlet");
+  EXPECT_EQ(j["energy"], "inverse-scaled-jacobian");
   EXPECT_GE(j["after"]["min_scaled_jacobian"], j["before"]["min_scaled_jacobian"]);
   EXPECT_GT(j["after"]["mean_scaled_jacobian"], j["before"]["mean_scaled_jacobian"]);
   EXPECT_LE(j["after"]["hausdorff_ratio"], 0.005);

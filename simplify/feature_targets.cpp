@@ -1,0 +1,54 @@
+#include "simplify/feature_targets.h"
+
+namespace hexweft {
+namespace {
+
+// What the members of a group stand for together.
+struct GroupFeature {
+  int corner = -1, line = -1;
+  Eigen::Vector3d on_line = Eigen::Vector3d::Zero();  // sum of the members on the line
+  int n_on_line = 0;
+  bool in_conflict = false;
+
+  void take(const FeatureLabel& label, const Eigen::Vector3d& point) {
+    if (label.is_corner()) {
+      in_conflict |= corner >= 0 && corner != label.corner;
+      corner = label.corner;
+    } else if (label.is_line()) {
+      in_conflict |= line >= 0 && line != label.line;
+      line = label.line;
+      on_line += point;
+      ++n_on_line;
+    }
+  }
+};
+
+bool ends_at(const SurfaceFeatures& features, int line, int corner) {
+  const FeatureLine& l = features.lines[line];
+  const int point = features.corners[corner];
+  return !l.closed && (l.points.front() == point || l.points.back() == point);
+}
+
+}  // namespace
+
+std::optional<std::vector<Eigen::Vector3d>> feature_targets(const HexMesh& mesh,
+                                                            const SingularityGraph& graph,
+                                                            const CollapsePlan& plan,
+                                                            std::span<const FeatureLabel> labels,
+                                                            const FeatureCurves& curves) {
+  std::vector<Eigen::Vector3d> targets = default_targets(mesh, graph, plan);
+  for (int g = 0; g < plan.n_groups(); ++g) {
+    GroupFeature f;
+    for (VertexHandle v : plan.group(g)) f.take(labels[v.idx], mesh.point(v));
+    if (f.corner >= 0 && f.line >= 0) f.in_conflict |= !ends_at(curves.features(), f.line, f.corner);
+    if (f.in_conflict) return std::nullopt;
+    if (f.corner >= 0) {
+      targets[g] = curves.corner(f.corner);
+    } else if (f.line >= 0) {
+      targets[g] = curves.closest(f.on_line / f.n_on_line, f.line).point;
+    }
+  }
+  return targets;
+}
+
+}  // namespace hexweft
