@@ -37,6 +37,7 @@ void validate(const SimplifyOptions& o) {
     expect(*o.target_components > 0, "target_components", *o.target_components, "> 0");
   }
   if (o.max_seconds) expect(*o.max_seconds > 0, "max_seconds", *o.max_seconds, "> 0");
+  expect(o.checkpoint_every_s >= 0, "checkpoint_every_s", o.checkpoint_every_s, ">= 0");
   validate(o.weights);
   validate(o.features);
   validate(o.parametrization);

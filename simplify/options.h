@@ -8,18 +8,12 @@
 
 #include "optimize/local_parametrization.h"
 #include "simplify/plan_check.h"
+#include "simplify/progress.h"
 #include "simplify/rank.h"
 
 namespace hexweft {
 
-/// What an observer is told after every accepted step.
-struct SimplifyProgress {
-  int step = 0;  ///< accepted steps so far
-  int hexahedra = 0, components = 0, input_components = 0;
-  double hausdorff_ratio = 0;  ///< of the bounding-box diagonal, at the loop's sampling
-  double min_scaled_jacobian = 1, mean_scaled_jacobian = 1;
-  double seconds = 0;  ///< since the start
-};
+struct RunState;  // checkpoint.h
 
 /// When to stop simplifying and what to preserve.
 struct SimplifyOptions {
@@ -47,9 +41,15 @@ struct SimplifyOptions {
   int max_failed_trials = 20;  ///< > 0, stop after so many parametrizations failed in a row
   std::optional<double> target_rate = {};     ///< [0, 1], stop at R = 1 - BC / BC_in
   std::optional<int> target_components = {};  ///< > 0, stop at so many
-  std::optional<double> max_seconds = {};     ///< > 0, stop collapsing after so long
-  std::stop_token stop = {};                  ///< stops at the next step; the mesh is valid then
+  /// > 0; after so long nothing more is begun, the smoothing at the end neither
+  std::optional<double> max_seconds = {};
+  std::stop_token stop =
+      {};  ///< ends the run within a step, as max_seconds does; the mesh is valid
+  /// Called after every accepted change. What it is told takes a pass over the mesh.
   std::function<void(const SimplifyProgress&)> observer = {};
+  /// Called now and then, and when the loop has ended, with what resume_simplify() needs.
+  std::function<void(const HexMesh&, const RunState&)> checkpoint = {};
+  double checkpoint_every_s = 5;  ///< >= 0, not more often than that
 };
 
 /// \throws InputError, one sentence that names the option, its value and what was expected

@@ -1,5 +1,7 @@
 #include "simplify/report.h"
 
+#include <numeric>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -72,15 +74,52 @@ nlohmann::ordered_json to_json(const MeshFigures& f) {
           {"parts", f.parts}};
 }
 
+std::string_view fate(int refusal) {
+  return refusal == 0 ? "accepted" : name(static_cast<Refusal>(refusal));
+}
+
+std::string fates(const char* what, const TrialCounts& c) {
+  std::string s = fmt::format("{:>16} {:>9} {:>9}\n", what, "seconds", "trials");
+  for (int r = 0; r < kRefusals; ++r) {
+    const int n = r == 0 ? c.accepted : c.refused[r];
+    if (n > 0) s += fmt::format("{:>16} {:>9.3f} {:>9}\n", fate(r), c.seconds[r], n);
+  }
+  return s + fmt::format("{:>16} {:>9} {:>9}\n", "waited", "", c.waited);
+}
+
+}  // namespace
+
+int TrialCounts::tried() const { return std::accumulate(refused.begin(), refused.end(), accepted); }
+
 nlohmann::ordered_json to_json(const TrialCounts& c) {
-  nlohmann::ordered_json j = {{"accepted", c.accepted}};
+  nlohmann::ordered_json j = {{"tried", c.tried()}, {"accepted", c.accepted}};
   for (int r = 1; r < kRefusals; ++r) {
-    if (c.refused[r] > 0) j["refused"][name(static_cast<Refusal>(r))] = c.refused[r];
+    if (c.refused[r] > 0) j["refused"][fate(r)] = c.refused[r];
+  }
+  j["waited"] = c.waited;
+  for (int r = 0; r < kRefusals; ++r) {
+    if (c.seconds[r] > 0) j["seconds"][fate(r)] = c.seconds[r];
   }
   return j;
 }
 
-}  // namespace
+TrialCounts trial_counts(const nlohmann::ordered_json& j) {
+  TrialCounts c;
+  c.accepted = j.at("accepted").get<int>();
+  c.waited = j.at("waited").get<int>();
+  const auto none = nlohmann::ordered_json::object();
+  const auto refused = j.value("refused", none), seconds = j.value("seconds", none);
+  for (int r = 0; r < kRefusals; ++r) {
+    const std::string key(fate(r));
+    if (r > 0) c.refused[r] = refused.value(key, 0);
+    c.seconds[r] = seconds.value(key, 0.0);
+  }
+  return c;
+}
+
+std::string SimplifyReport::profile_table() const {
+  return profile.table() + fates("sheets", sheets) + fates("chords", chords);
+}
 
 nlohmann::ordered_json SimplifyReport::json() const {
   return {{"before", to_json(before)},
@@ -92,7 +131,8 @@ nlohmann::ordered_json SimplifyReport::json() const {
           {"chords", to_json(chords)},
           {"refined", refined},
           {"refinement_failed", refinement_failed},
-          {"seconds", seconds}};
+          {"seconds", seconds},
+          {"profile", profile.json()}};
 }
 
 }  // namespace hexweft

@@ -7,6 +7,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "simplify/profile.h"
 #include "simplify/refusal.h"
 
 namespace hexweft {
@@ -23,29 +24,38 @@ struct MeshFigures {
 class HexMesh;
 MeshFigures measure_mesh(const HexMesh& mesh);
 
-/// Why the loop ended.
+/// Why the run ended; one of the last two also where only the smoothing was left out for it.
 enum class StopReason { nothing_left, no_progress, target_reached, out_of_time, interrupted };
 std::string_view name(StopReason reason);
 
-/// How often trials of one kind ended how.
+/// How often trials of one kind ended how, and what that took.
 struct TrialCounts {
   int accepted = 0;
-  std::array<int, kRefusals> refused = {};  ///< by Refusal
+  std::array<int, kRefusals> refused = {};     ///< by Refusal
+  std::array<double, kRefusals> seconds = {};  ///< by Refusal; at none of those accepted
+  int waited = 0;     ///< passed over, since they failed and little has changed
+  int tried() const;  ///< accepted and refused
 };
+nlohmann::ordered_json to_json(const TrialCounts& counts);
+/// What to_json() was made from. \throws nlohmann::json::exception if it is not of that form
+TrialCounts trial_counts(const nlohmann::ordered_json& j);
 
 struct SimplifyReport {
   MeshFigures before, after;
   double hausdorff_ratio = 0;  ///< of the output, at full sampling
   StopReason stopped = StopReason::nothing_left;
   TrialCounts sheets, chords;
-  int refined = 0, refinement_failed = 0;  ///< sheets split
-  double seconds = 0;
+  int refined = 0;            ///< sheets split
+  int refinement_failed = 0;  ///< sheets whose split failed, or was undone since it led nowhere
+  double seconds = 0;         ///< earlier runs of a resumed one included
+  Profile profile;            ///< where they went
 
   double rate() const {  ///< R
     return before.components > 0 ? 1 - static_cast<double>(after.components) / before.components
                                  : 0;
   }
-  std::string brief() const;  ///< a table for people, before and after side by side
+  std::string brief() const;          ///< a table for people, before and after side by side
+  std::string profile_table() const;  ///< for people: stages of the run, fate of the trials
   nlohmann::ordered_json json() const;
 };
 

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "ovm/hex_mesh.h"
+#include "simplify/checkpoint.h"
 #include "simplify/options.h"
 #include "simplify/report.h"
 
@@ -14,8 +15,17 @@ namespace hexweft {
 
 /// Source [Xu2021, Algorithm 1], spec "The loop". Whenever it stops, the mesh is valid: conforming,
 /// manifold, of the input's genus and parts, without inverted cells, within the Hausdorff limit.
+/// A mesh of which nothing can be removed comes back as it was, but for gaps of deleted elements.
 /// \param mesh  valid (check_topology), no cell of scaled Jacobian <= 0, its base complex regular
 /// \throws InputError otherwise, naming an element, and on bad options; the mesh is then unchanged
 SimplifyReport simplify(HexMesh& mesh, const SimplifyOptions& options = {});
+
+/// Goes on from a checkpoint; the promises are those of simplify(), towards the original input.
+/// \param mesh  in: the input of the run that the checkpoint is of; out: the result
+/// \param from  valid as an input must be, of the input's genus and parts. If it is not within the
+///              limit of distance, the run may have to fall back on the input.
+/// \throws InputError as simplify(), of the input or of the checkpoint; the mesh is then unchanged
+SimplifyReport resume_simplify(HexMesh& mesh, const Checkpoint& from,
+                               const SimplifyOptions& options = {});
 
 }  // namespace hexweft

@@ -56,6 +56,7 @@ INSTANTIATE_TEST_SUITE_P(
                     BadOption{"target_rate", [](O& o) { o.target_rate = -0.5; }},
                     BadOption{"target_components", [](O& o) { o.target_components = 0; }},
                     BadOption{"max_seconds", [](O& o) { o.max_seconds = 0; }},
+                    BadOption{"checkpoint_every_s", [](O& o) { o.checkpoint_every_s = kNaN; }},
                     BadOption{"max_iterations",
                               [](O& o) { o.parametrization.max_iterations = 0; }}));
 

@@ -51,5 +51,34 @@ TEST(Report, RateAndJson) {
   EXPECT_THAT(r.brief(), testing::AllOf(testing::HasSubstr("200"), testing::HasSubstr("0.7500")));
 }
 
+TEST(Report, CountsOfTrialsReadBack) {
+  TrialCounts c;
+  c.accepted = 3;
+  c.waited = 9;
+  c.refused[static_cast<int>(Refusal::valence)] = 5;
+  c.seconds[0] = 0.25;
+  c.seconds[static_cast<int>(Refusal::valence)] = 0.5;
+  const TrialCounts read = trial_counts(to_json(c));
+  EXPECT_EQ(read.accepted, 3);
+  EXPECT_EQ(read.waited, 9);
+  EXPECT_EQ(read.refused, c.refused);
+  EXPECT_EQ(read.seconds, c.seconds);
+  EXPECT_EQ(read.tried(), 8);
+  EXPECT_EQ(to_json(TrialCounts())["tried"], 0);
+}
+
+TEST(Report, ProfileTableNamesStagesAndFates) {
+  SimplifyReport r;
+  r.profile[Stage::ranking] = {1, 4};
+  r.profile[Stage::trial] = {3, 2};
+  r.sheets.accepted = 1;
+  r.chords.refused[static_cast<int>(Refusal::hausdorff)] = 1;
+  const std::string table = r.profile_table();
+  EXPECT_LT(table.find("trial"), table.find("ranking"));  // most time first
+  EXPECT_THAT(table, testing::AllOf(testing::HasSubstr("75.0 %"), testing::HasSubstr("hausdorff"),
+                                    testing::Not(testing::HasSubstr("smoothing"))));
+  EXPECT_EQ(r.json()["profile"]["trial"]["share"], 0.75);
+}
+
 }  // namespace
 }  // namespace hexweft

@@ -1,4 +1,7 @@
 // The loop on small meshes.
+#include <algorithm>
+#include <numeric>
+
 #include <gmock/gmock.h>
 
 #include "tests/mesh_families.h"
@@ -112,7 +115,7 @@ TEST(Simplify, StopFromTheObserverStopsAfterThatStep) {
   options.stop = source.get_token();
   int calls = 0;
   options.observer = [&](const SimplifyProgress& p) {
-    ++calls;
+    calls += is_collapse(p.what);
     EXPECT_LE(p.components, p.input_components);
     EXPECT_LE(p.hausdorff_ratio, 0.01);
     EXPECT_GT(p.hexahedra, 0);
@@ -174,6 +177,96 @@ TEST(Simplify, WithoutChordsOnlySheetsGo) {
   EXPECT_EQ(report.chords.accepted, 0);
   for (int n : report.chords.refused) EXPECT_EQ(n, 0);
   EXPECT_EQ(report.after.components, 1);
+}
+
+// Nothing can be removed from these.
+class SimplestMesh : public testing::TestWithParam<HexMesh (*)()> {};
+INSTANTIATE_TEST_SUITE_P(Simplify, SimplestMesh,
+                         testing::Values(
+                             [] {
+                               return make_grid({4, 3, 2});
+                             },
+                             [] { return make_l_shape(2); }, [] { return make_torus(); },
+                             [] { return make_torus({.n_core = 3, .n_around = 24}); },
+                             [] { return make_o_grid({.n_layers = 4}); }));
+
+TEST_P(SimplestMesh, ComesBackAsItWas) {
+  const HexMesh input = GetParam()();
+  HexMesh mesh = input;
+  const SimplifyReport report = simplify(mesh);
+  ASSERT_EQ(report.sheets.accepted + report.chords.accepted, 0);
+  EXPECT_TRUE(content(mesh) == content(input));
+  EXPECT_EQ(report.refined, 0);
+  EXPECT_EQ(report.stopped, StopReason::nothing_left);
+  expect_good_output(input, mesh, report);
+}
+
+TEST(Simplify, MoreHexahedraComeWhenAskedForEvenIfNothingGoes) {
+  const HexMesh input = make_grid({4, 3, 2});
+  HexMesh mesh = input;
+  SimplifyOptions options;
+  options.target_hexahedra_rel = 2;
+  const SimplifyReport report = simplify(mesh, options);
+  expect_good_output(input, mesh, report);
+  EXPECT_GT(mesh.n_cells(), 40);
+  EXPECT_GT(report.refined, 0);
+  EXPECT_EQ(report.after.components, 1);
+}
+
+TEST(Simplify, StopDuringRefinementEndsIt) {
+  const HexMesh input = make_grid({4, 3, 2});
+  HexMesh mesh = input;
+  std::stop_source source;
+  SimplifyOptions options;
+  options.target_hexahedra_rel = 50;
+  options.stop = source.get_token();
+  options.observer = [&](const SimplifyProgress& p) {
+    if (p.what == StepKind::refinement) source.request_stop();
+    EXPECT_NE(p.what, StepKind::smoothing);
+  };
+  const SimplifyReport report = simplify(mesh, options);
+  expect_good_output(input, mesh, report);
+  EXPECT_EQ(report.stopped, StopReason::interrupted);
+  EXPECT_LE(report.refined, 1);
+}
+
+TEST(Simplify, ObserverIsToldOfEveryKindOfStep) {
+  const HexMesh input = make_small_sphere();
+  HexMesh mesh = input;
+  SimplifyOptions options;
+  std::vector<SimplifyProgress> steps;
+  options.observer = [&](const SimplifyProgress& p) { steps.push_back(p); };
+  const SimplifyReport report = simplify(mesh, options);
+  const auto count = [&](StepKind what) {
+    return std::count_if(steps.begin(), steps.end(), [&](const auto& p) { return p.what == what; });
+  };
+  EXPECT_EQ(count(StepKind::sheet), report.sheets.accepted);
+  EXPECT_EQ(count(StepKind::chord), report.chords.accepted);
+  EXPECT_EQ(count(StepKind::refinement), report.refined);
+  ASSERT_GT(report.sheets.accepted, 0);
+  EXPECT_EQ(steps.front().what, StepKind::start);
+  EXPECT_EQ(steps.front().components, report.before.components);
+  EXPECT_EQ(steps.front().min_scaled_jacobian, report.before.min_scaled_jacobian);
+  EXPECT_EQ(steps.back().what, StepKind::smoothing);
+  EXPECT_EQ(steps.back().components, report.after.components);
+  EXPECT_EQ(steps.back().mean_scaled_jacobian, report.after.mean_scaled_jacobian);
+  for (const SimplifyProgress& p : steps) {
+    EXPECT_EQ(p.sheet_terms.has_value(), p.what == StepKind::sheet);
+    EXPECT_EQ(p.chord_terms.has_value(), p.what == StepKind::chord);
+    EXPECT_EQ(p.width > 0 && !p.kind.empty(), is_collapse(p.what));
+  }
+}
+
+TEST(Simplify, ProfileAddsUpToTheRun) {
+  HexMesh mesh = make_small_sphere();
+  const SimplifyReport report = simplify(mesh);
+  EXPECT_NEAR(report.profile.seconds(), report.seconds, 0.01 * report.seconds);
+  EXPECT_EQ(report.profile[Stage::trial].entered, report.sheets.tried() + report.chords.tried());
+  double trials = 0;
+  for (const TrialCounts* c : {&report.sheets, &report.chords}) {
+    trials = std::accumulate(c->seconds.begin(), c->seconds.end(), trials);
+  }
+  EXPECT_NEAR(trials, report.profile[Stage::trial].seconds, 0.01 * report.seconds);
 }
 
 TEST(Simplify, ThinnestFirstIsAnotherOrder) {

@@ -1,0 +1,134 @@
+#include "simplify/checkpoint.h"
+
+#include <bit>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "ovm/errors.h"
+#include "simplify/options.h"
+
+namespace hexweft {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+class Fnv {
+ public:
+  void add(std::uint64_t x) {
+    for (int i = 0; i < 8; ++i, x >>= 8) hash_ = (hash_ ^ (x & 0xff)) * 1099511628211ull;
+  }
+  std::uint64_t value() const { return hash_; }
+
+ private:
+  std::uint64_t hash_ = 14695981039346656037ull;
+};
+
+Json to_json(const RankingWeights& w) {
+  return {{"k_valence", w.k_valence},
+          {"k_width", w.k_width},
+          {"k_distortion", w.k_distortion},
+          {"beta", w.beta},
+          {"min_width", w.min_width},
+          {"mean_width", w.mean_width},
+          {"distortion_threshold", w.distortion_threshold}};
+}
+
+Json to_json(const ValenceLimits& v) {
+  return {{"min_interior", v.min_interior},
+          {"max_interior", v.max_interior},
+          {"max_boundary", v.max_boundary},
+          {"max_angle_deg", v.max_angle_deg}};
+}
+
+Json to_json(const ParametrizationOptions& p) {
+  return {{"energy", name(p.energy)},
+          {"max_iterations", p.max_iterations},
+          {"relaxation_iterations", p.relaxation_iterations},
+          {"untangling_rounds", p.untangling_rounds},
+          {"surface_treatment", static_cast<int>(p.surface.treatment)}};
+}
+
+Profile profile_of(const Json& j) {
+  if (!j.is_object()) throw InputError("profile = " + j.dump() + ", expected an object");
+  Profile profile;
+  for (int i = 0; i < kStages; ++i) {
+    const auto entry = j.find(std::string(name(static_cast<Stage>(i))));
+    if (entry == j.end()) continue;
+    profile.stages[i] = {entry->at("seconds").get<double>(), entry->at("entered").get<int>()};
+  }
+  return profile;
+}
+
+}  // namespace
+
+Json to_json(const RunState& s) {
+  return {{"step", s.step},
+          {"failed_in_a_row", s.failed_in_a_row},
+          {"distance_share", s.distance_share},
+          {"sheets", to_json(s.sheets)},
+          {"chords", to_json(s.chords)},
+          {"refined", s.refined},
+          {"refinement_failed", s.refinement_failed},
+          {"seconds", s.seconds},
+          {"profile", s.profile.json()}};
+}
+
+RunState run_state(const Json& j) {
+  RunState s;
+  try {
+    s.step = j.at("step").get<int>();
+    s.failed_in_a_row = j.at("failed_in_a_row").get<int>();
+    s.distance_share = j.at("distance_share").get<double>();
+    s.sheets = trial_counts(j.at("sheets"));
+    s.chords = trial_counts(j.at("chords"));
+    s.refined = j.at("refined").get<int>();
+    s.refinement_failed = j.at("refinement_failed").get<int>();
+    s.seconds = j.at("seconds").get<double>();
+    s.profile = profile_of(j.at("profile"));
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(std::string("the state of the run cannot be read: ") + error.what());
+  }
+  if (s.step < 0 || !(s.distance_share > 0 && s.distance_share <= 1)) {
+    throw InputError(fmt::format("step = {}, distance_share = {}, expected >= 0 and (0, 1]", s.step,
+                                 s.distance_share));
+  }
+  return s;
+}
+
+std::uint64_t fingerprint(const HexMesh& mesh) {
+  Fnv hash;
+  std::vector<int> position(mesh.vertex_slots(), -1);
+  int n = 0;
+  for (const VertexHandle v : mesh.vertices()) {
+    position[v.idx] = n++;
+    for (const double x : mesh.point(v)) hash.add(std::bit_cast<std::uint64_t>(x));
+  }
+  for (const CellHandle c : mesh.cells()) {
+    for (const VertexHandle v : mesh.vertices(c)) hash.add(position[v.idx]);
+  }
+  return hash.value();
+}
+
+Json lasting_options(const SimplifyOptions& o) {
+  return {{"ranking", name(o.ranking)},
+          {"weights", to_json(o.weights)},
+          {"chords", o.chords},
+          {"hausdorff_limit_rel", o.hausdorff_limit_rel},
+          {"min_scaled_jacobian", o.min_scaled_jacobian},
+          {"mean_scaled_jacobian", o.mean_scaled_jacobian},
+          {"target_hexahedra_rel", o.target_hexahedra_rel},
+          {"rings", o.rings},
+          {"give_up_factor", o.give_up_factor},
+          {"max_chord_deviation", o.max_chord_deviation},
+          {"valence", to_json(o.valence)},
+          {"features", static_cast<int>(o.features.mode)},
+          {"feature_angle_deg", o.features.angle_deg},
+          {"parametrization", to_json(o.parametrization)},
+          {"max_failed_trials", o.max_failed_trials},
+          {"smooth", o.smooth},
+          {"smoothing_trials", o.smoothing_trials}};
+}
+
+}  // namespace hexweft

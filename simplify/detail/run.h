@@ -1,0 +1,80 @@
+/// \file
+/// One run of the simplification: the mesh, what belongs to it, and the state of the loop.
+#pragma once
+
+#include <chrono>
+
+#include "ovm/dual.h"
+#include "simplify/candidates.h"
+#include "simplify/checkpoint.h"
+#include "simplify/trial.h"
+
+namespace hexweft::detail {
+
+class Run {
+ public:
+  /// \throws InputError if the base complex is not regular
+  Run(HexMesh& mesh, const SimplifyOptions& options);
+  /// Puts the checkpoint's mesh in the place of the input's.
+  /// \throws InputError if it cannot have come from it; the mesh is then as it was
+  void go_on_from(const Checkpoint& from);
+  SimplifyReport run();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  // ---- The loop (run.cpp) ----
+  void loop();
+  bool collapse_one(bool patient);
+  bool collapse_sheet(const CandidateQueues& q, bool patient);
+  bool collapse_chord(const CandidateQueues& q, bool patient);
+  bool attempt(const CollapsePlan& plan, TrialCounts& counts, SimplifyProgress step, bool patient);
+  void accept(BaseComplex bc, const SimplifyProgress& step);
+  void relieve();
+  bool refine(double min_length_rel, double most_cells_rel = 1);
+  bool refine_one(const DualSheet& sheet);
+  bool is_short_of_cells(double share) const;
+  bool should_stop();   // for good or for lack of progress
+  bool is_cut_short();  // asked to stop, or out of time
+  int n_collapses() const { return report_.sheets.accepted + report_.chords.accepted; }
+
+  // ---- What goes on beside it (run_record.cpp) ----
+  double seconds() const;  // since the start of this run
+  RunState state();
+  void observe(SimplifyProgress p);
+  void tell_of_output(SimplifyProgress p);
+  void tell(SimplifyProgress p);
+  void keep_checkpoint(bool now = false);
+  bool within_limit() const;
+  void verify();
+  void replace_mesh(const HexMesh& mesh);
+  void compact();
+  void give_back_input();
+  void fall_back();
+  void smooth_all();
+  void measure_output(bool smoothed);
+  StageTimer timer(Stage stage) { return {&clock_, stage}; }
+
+  HexMesh& mesh_;
+  const SimplifyOptions& options_;
+  Clock::time_point start_;
+  StageClock clock_;
+  ReferenceSurface reference_;
+  SurfaceDistance distance_;
+  TrialContext context_;
+  BaseComplex bc_;
+  bool bc_of_this_mesh_ =
+      true;  // else of the mesh before splits, which leave the components as they are
+  FailureMemory memory_;
+  std::vector<EdgeHandle> not_refinable_;  // lowest edges of sheets whose split failed on this mesh
+  SimplifyReport report_;
+  HexMesh verified_;  // the last mesh within the limit at full sampling; at first the input
+  int verified_components_ = 0;
+  int step_ = 0;             // collapses and splits that the mesh is away from the input
+  int failed_in_a_row_ = 0;  // trials that came as far as the geometry, since the last accepted one
+  Clock::time_point last_checkpoint_;
+  double earlier_seconds_ = 0;  // of runs before this one
+  Profile earlier_profile_;
+};
+
+}  // namespace hexweft::detail

@@ -1,0 +1,160 @@
+// What goes on beside the loop: telling, keeping, measuring, ending.
+#include <fmt/format.h>
+
+#include "optimize/hausdorff.h"
+#include "optimize/smooth.h"
+#include "ovm/errors.h"
+#include "simplify/detail/run.h"
+
+namespace hexweft::detail {
+
+double Run::seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+void Run::go_on_from(const Checkpoint& from) {
+  const TopologySummary t = summarize_topology(from.mesh), &input = context_.shape;
+  if (t.genus != input.genus || t.n_parts != input.n_parts ||
+      t.n_boundary_components != input.n_boundary_components) {
+    throw InputError(
+        fmt::format("the checkpoint's mesh has genus {}, {} parts and {} boundary surfaces, the "
+                    "input {}, {} and {}",
+                    t.genus, t.n_parts, t.n_boundary_components, input.genus, input.n_parts,
+                    input.n_boundary_components));
+  }
+  if (const int n = extract_base_complex(from.mesh).irregular; n > 0) {
+    throw InputError(fmt::format("{} regions of the checkpoint's base complex are no cuboids", n));
+  }
+  const RunState& s = from.state;
+  replace_mesh(from.mesh);
+  step_ = s.step;
+  failed_in_a_row_ = s.failed_in_a_row;
+  context_.distance_limit = s.distance_share * context_.final_limit;
+  report_.sheets = s.sheets;
+  report_.chords = s.chords;
+  report_.refined = s.refined;
+  report_.refinement_failed = s.refinement_failed;
+  earlier_seconds_ = s.seconds;
+  earlier_profile_ = s.profile;
+  if (n_collapses() > 0 && within_limit()) {
+    verified_ = mesh_;
+    verified_components_ = static_cast<int>(bc_.components.size());
+  }
+}
+
+RunState Run::state() {
+  RunState s;
+  s.step = step_;
+  s.failed_in_a_row = failed_in_a_row_;
+  s.distance_share = context_.distance_limit / context_.final_limit;
+  s.sheets = report_.sheets;
+  s.chords = report_.chords;
+  s.refined = report_.refined;
+  s.refinement_failed = report_.refinement_failed;
+  s.seconds = earlier_seconds_ + seconds();
+  s.profile = earlier_profile_;
+  s.profile += clock_.profile();
+  return s;
+}
+
+void Run::observe(SimplifyProgress p) {
+  if (!options_.observer) return;
+  const auto reporting = timer(Stage::reporting);
+  std::vector<CellHandle> all;
+  all.reserve(mesh_.n_cells());
+  for (const CellHandle c : mesh_.cells()) all.push_back(c);
+  const Quality now = measure_quality(mesh_, all);
+  p.hexahedra = mesh_.n_cells();
+  p.components = static_cast<int>(bc_.components.size());
+  p.hausdorff_ratio = distance_.ratio();
+  p.min_scaled_jacobian = now.least;
+  p.mean_scaled_jacobian = now.mean;
+  tell(p);
+}
+
+void Run::tell_of_output(SimplifyProgress p) {
+  if (!options_.observer) return;
+  p.hexahedra = report_.after.hexahedra;
+  p.components = report_.after.components;
+  p.hausdorff_ratio = report_.hausdorff_ratio;
+  p.min_scaled_jacobian = report_.after.min_scaled_jacobian;
+  p.mean_scaled_jacobian = report_.after.mean_scaled_jacobian;
+  tell(p);
+}
+
+void Run::tell(SimplifyProgress p) {
+  p.step = step_;
+  p.input_components = report_.before.components;
+  p.seconds = earlier_seconds_ + seconds();
+  options_.observer(p);
+}
+
+void Run::keep_checkpoint(bool now) {
+  if (!options_.checkpoint) return;
+  const std::chrono::duration<double> since = Clock::now() - last_checkpoint_;
+  if (!now && since.count() < options_.checkpoint_every_s) return;
+  const auto reporting = timer(Stage::reporting);
+  options_.checkpoint(mesh_, state());
+  last_checkpoint_ = Clock::now();
+}
+
+bool Run::within_limit() const { return is_within(mesh_, reference_, context_.final_limit); }
+
+// Keeps a copy that is within the limit at full sampling; where this one is not, keeps more
+// distance.
+void Run::verify() {
+  const auto verifying = timer(Stage::verification);
+  verified_components_ = static_cast<int>(bc_.components.size());
+  if (within_limit()) {
+    verified_ = mesh_;
+  } else {
+    context_.distance_limit *= 0.95;
+  }
+}
+
+// Handles change: what is known by handle is made anew.
+void Run::replace_mesh(const HexMesh& mesh) {
+  if (&mesh != &mesh_) mesh_ = mesh;
+  mesh_.collect_garbage();
+  bc_ = extract_base_complex(mesh_);
+  bc_of_this_mesh_ = true;
+  distance_ = SurfaceDistance(mesh_, reference_);
+  memory_.forget_all();
+  not_refinable_.clear();
+}
+
+void Run::compact() {
+  const auto extracting = timer(Stage::base_complex);
+  replace_mesh(mesh_);
+}
+
+// Splits that made room for no collapse were for nothing.
+void Run::give_back_input() {
+  const auto extracting = timer(Stage::base_complex);
+  replace_mesh(verified_);
+  step_ = 0;
+  report_.refinement_failed += report_.refined;
+  report_.refined = 0;
+}
+
+void Run::fall_back() {
+  const auto verifying = timer(Stage::verification);
+  if (!within_limit()) mesh_ = verified_;
+}
+
+void Run::smooth_all() {
+  const auto smoothing = timer(Stage::smoothing);
+  const SmoothingOptions options = {.hausdorff_limit_rel = options_.hausdorff_limit_rel,
+                                    .local_trials = options_.smoothing_trials,
+                                    .parametrization = options_.parametrization};
+  report_.hausdorff_ratio = smooth(mesh_, reference_, options).hausdorff_rel;
+}
+
+void Run::measure_output(bool smoothed) {
+  const auto measuring = timer(Stage::verification);
+  if (!smoothed) report_.hausdorff_ratio = hausdorff_distance(mesh_, reference_).ratio();
+  mesh_.collect_garbage();
+  report_.after = measure_mesh(mesh_);
+  report_.seconds = earlier_seconds_ + seconds();
+  report_.profile = state().profile;
+}
+
+}  // namespace hexweft::detail

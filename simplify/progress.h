@@ -1,0 +1,42 @@
+/// \file
+/// What an observer of the simplification is told.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "simplify/rank.h"
+
+namespace hexweft {
+
+enum class StepKind {
+  start,       ///< nothing done yet
+  sheet,       ///< a sheet was collapsed
+  chord,       ///< a chord was collapsed
+  refinement,  ///< a sheet was split
+  relief,      ///< the place farthest from the surface was relaxed
+  smoothing    ///< the whole mesh was smoothed; the last one
+};
+std::string_view name(StepKind kind);
+constexpr bool is_collapse(StepKind k) { return k == StepKind::sheet || k == StepKind::chord; }
+
+/// A change of the mesh that was accepted, and the mesh after it.
+struct SimplifyProgress {
+  StepKind what = StepKind::start;
+  std::string_view kind = {};  ///< of a sheet: name(SheetKind); of a chord: open or closed
+  int width = 0;               ///< of a sheet or chord: layers of cells that folded together
+  std::optional<SheetTerms> sheet_terms = {};  ///< of a sheet, before it went
+  std::optional<ChordTerms> chord_terms = {};  ///< of a chord, before it went
+
+  int step = 0;  ///< collapses and splits so far; relief and smoothing belong to the one before
+  int hexahedra = 0, components = 0, input_components = 0;
+  double hausdorff_ratio = 0;  ///< of the bounding-box diagonal, at the loop's sampling
+  double min_scaled_jacobian = 1, mean_scaled_jacobian = 1;
+  double seconds = 0;  ///< since the start, earlier runs of a resumed one included
+};
+
+nlohmann::ordered_json to_json(const SimplifyProgress& progress);
+
+}  // namespace hexweft
