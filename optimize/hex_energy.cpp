@@ -4,8 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Geometry>
-
+#include "optimize/energies/kernels.h"
 #include "ovm/errors.h"
 #include "ovm/hex_numbering.h"
 
@@ -23,10 +22,55 @@ InstructionSet best_instruction_set() {
   return InstructionSet::portable;
 }
 
-double scaled(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
-  const double lengths = a.norm() * b.norm() * c.norm();
-  return lengths > 0 ? a.dot(b.cross(c)) / lengths : -1;
+/// Scaled determinant of three edges: -1 where one has no length.
+template <class T>
+HEXWEFT_INLINE T scaled(const Mat3<T>& m) {
+  const T lengths2 = dot(m.col[0], m.col[0]) * dot(m.col[1], m.col[1]) * dot(m.col[2], m.col[2]);
+  const T det = dot(m.col[0], cross(m.col[1], m.col[2]));
+  return lengths2 > 0.0 ? det / square_root(lengths2) : broadcast<T>(-1);
 }
+
+/// The sum of the eight lanes, in every lane.
+HEXWEFT_INLINE Lanes sum_to_all(Lanes v) {
+  v += kernels::across<0>(v);
+  v += kernels::across<1>(v);
+  return v + kernels::across<2>(v);
+}
+
+/// Four times the edges of the parallelepiped in the middle of the hexahedron.
+HEXWEFT_INLINE Mat3<double> middle_edges(const Mat3<Lanes>& corners) {
+  Mat3<double> m;
+  for (int k = 0; k < 3; ++k) {
+    const Vec3<Lanes>& c = corners.col[k];
+    m.col[k] = {sum_to_all(c.x)[0], sum_to_all(c.y)[0], sum_to_all(c.z)[0]};
+  }
+  return m;
+}
+
+struct LeastDeterminants {
+  HEXWEFT_INLINE static void run(const double* points, const std::span<const HexCorners>& hexes,
+                                 const std::span<const TargetCuboid>& targets, double* least) {
+    for (std::size_t i = 0; i < hexes.size(); ++i) {
+      const Vec3<Lanes> x = kernels::gather(points, hexes[i]);
+      least[i] = lane_min(kernels::corner_deformations(x, kernels::make_scale(targets[i])).det);
+    }
+  }
+};
+
+struct ScaledJacobians {
+  HEXWEFT_INLINE static void run(const double* points, const std::span<const HexCorners>& hexes,
+                                 double* least) {
+    for (std::size_t i = 0; i < hexes.size(); ++i) {
+      const Vec3<Lanes> x = kernels::gather(points, hexes[i]);
+      const Mat3<Lanes> edges = {{kernels::axis_sign(0) * (kernels::across<0>(x) - x),
+                                  kernels::axis_sign(1) * (kernels::across<1>(x) - x),
+                                  kernels::axis_sign(2) * (kernels::across<2>(x) - x)}};
+      const double corners = lane_min(scaled(edges)), middle = scaled(middle_edges(edges));
+      const double worst = corners < middle ? corners : middle;
+      least[i] = worst < 1 ? worst : 1;
+    }
+  }
+};
 
 }  // namespace
 
@@ -63,32 +107,16 @@ std::vector<double> min_relative_determinants(const Eigen::Matrix3Xd& points,
                                               std::span<const HexCorners> hexes,
                                               std::span<const TargetCuboid> targets) {
   std::vector<double> least(hexes.size());
-  for (std::size_t i = 0; i < hexes.size(); ++i) {
-    least[i] = lane_min(kernels::corner_deformations(kernels::gather(points.data(), hexes[i]),
-                                                     kernels::make_scale(targets[i]))
-                            .det);
-  }
+  kernels::run<LeastDeterminants>(available(InstructionSet::automatic), points.data(), hexes,
+                                  targets, least.data());
   return least;
 }
 
 std::vector<double> scaled_jacobians(const Eigen::Matrix3Xd& points,
                                      std::span<const HexCorners> hexes) {
   std::vector<double> least(hexes.size());
-  for (std::size_t i = 0; i < hexes.size(); ++i) {
-    double worst = 1;
-    Eigen::Vector3d middle[3] = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
-                                 Eigen::Vector3d::Zero()};
-    for (int c = 0; c < 8; ++c) {
-      Eigen::Vector3d e[3];
-      for (int a = 0; a < 3; ++a) {
-        const int sign = kCornerCoords[c][a] ? -1 : 1;
-        e[a] = sign * (points.col(hexes[i][kCornerAcross[c][a]]) - points.col(hexes[i][c]));
-        middle[a] += e[a];
-      }
-      worst = std::min(worst, scaled(e[0], e[1], e[2]));
-    }
-    least[i] = std::min(worst, scaled(middle[0], middle[1], middle[2]));
-  }
+  kernels::run<ScaledJacobians>(available(InstructionSet::automatic), points.data(), hexes,
+                                least.data());
   return least;
 }
 

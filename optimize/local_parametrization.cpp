@@ -14,74 +14,71 @@ namespace {
 /// there would spend its iterations on them alone.
 constexpr double kFlat = 1e-3;
 
-/// A projection does not take a scaled Jacobian below this; hexahedra with several sides on a
-/// smooth surface would be flat with all their vertices on it.
-constexpr double kLeastOnProjection = 0.15;
-
 class Parametrization {
  public:
   Parametrization(Region region, const ReferenceSurface& reference,
                   const ParametrizationOptions& options, std::vector<VertexPull> goals)
       : region_(std::move(region)),
-        reference_(reference),
         options_(options),
-        goal_pulls_(std::move(goals)) {
-    lengths_ = edge_lengths_at_vertices(region_);
-    goals_ = surface_goals(region_, reference_, options_.surface);
+        goal_pulls_(std::move(goals)),
+        lengths_(edge_lengths_at_vertices(region_)),
+        constraint_(region_, reference, options.surface),
+        goals_(constraint_.goals(region_)) {
+    problem_.n_free = region_.n_free;
+    problem_.hexes = region_.hexes;
+    problem_.targets = target_cuboids(region_, options_.target);
   }
 
   ParametrizationReport run();
   const Region& region() const { return region_; }
 
  private:
-  double least_determinant(const std::vector<TargetCuboid>& targets) const {
-    const auto d = min_relative_determinants(region_.points, region_.hexes, targets);
+  double least_determinant() const {
+    const auto d = min_relative_determinants(region_.points, region_.hexes, problem_.targets);
     return d.empty() ? 1 : *std::min_element(d.begin(), d.end());
   }
-  double least_scaled_jacobian() const {
-    const auto sj = scaled_jacobians(region_.points, region_.hexes);
-    return sj.empty() ? 1 : *std::min_element(sj.begin(), sj.end());
+  /// Measures the hexahedra anew. \return the least scaled Jacobian
+  double measure() {
+    scaled_jacobians_ = scaled_jacobians(region_.points, region_.hexes);
+    return scaled_jacobians_.empty()
+               ? 1
+               : *std::min_element(scaled_jacobians_.begin(), scaled_jacobians_.end());
   }
-  void weigh_bad_hexes(std::vector<TargetCuboid>& targets) const;
-  RelaxationReport relax_once(const Energy& energy, const std::vector<TargetCuboid>& targets,
-                              int iterations);
+  void weigh_bad_hexes();
+  RelaxationReport relax_once(const Energy& energy, int iterations);
   bool untangle();
   void iterate();
   double largest_relative_move(const Eigen::Matrix3Xd& from) const;
 
   Region region_;
-  const ReferenceSurface& reference_;
   const ParametrizationOptions& options_;
   std::vector<VertexPull> goal_pulls_;
   std::vector<double> lengths_;  // of edges at each vertex, at the start
+  SurfaceConstraint constraint_;
   std::vector<SurfaceGoal>
-      goals_;  // of the last projection; also the planes of the next relaxation
+      goals_;                  // of the last projection; also the planes of the next relaxation
+  RelaxationProblem problem_;  // has the points during a relaxation only; targets of the points
+  std::vector<double> scaled_jacobians_;  // at the last measure()
   ParametrizationReport report_;
 };
 
-void Parametrization::weigh_bad_hexes(std::vector<TargetCuboid>& targets) const {
-  const std::vector<double> sj = scaled_jacobians(region_.points, region_.hexes);
-  for (std::size_t h = 0; h < targets.size(); ++h) {
-    const double shortfall = options_.quality_goal / std::max(sj[h], 1e-3);
-    targets[h].weight = std::clamp(shortfall * shortfall, 1.0, options_.quality_weight_limit);
+void Parametrization::weigh_bad_hexes() {
+  for (std::size_t h = 0; h < problem_.targets.size(); ++h) {
+    const double shortfall = options_.quality_goal / std::max(scaled_jacobians_[h], 1e-3);
+    problem_.targets[h].weight =
+        std::clamp(shortfall * shortfall, 1.0, options_.quality_weight_limit);
   }
 }
 
-RelaxationReport Parametrization::relax_once(const Energy& energy,
-                                             const std::vector<TargetCuboid>& targets,
-                                             int iterations) {
-  RelaxationProblem problem;
-  problem.points = region_.points;
-  problem.n_free = region_.n_free;
-  problem.hexes = region_.hexes;
-  problem.targets = targets;
-  problem.pulls = surface_pulls(region_, goals_, options_.surface.weight);
-  problem.pulls.insert(problem.pulls.end(), goal_pulls_.begin(), goal_pulls_.end());
+RelaxationReport Parametrization::relax_once(const Energy& energy, int iterations) {
+  problem_.points.swap(region_.points);
+  constraint_.pulls(problem_.points, goals_, options_.surface.weight, problem_.pulls);
+  problem_.pulls.insert(problem_.pulls.end(), goal_pulls_.begin(), goal_pulls_.end());
   RelaxationOptions relaxation;
   relaxation.max_iterations = iterations;
   relaxation.iterations_per_restart = std::max(10, iterations);
-  const RelaxationReport r = relax(problem, energy, relaxation);
-  region_.points = std::move(problem.points);
+  const RelaxationReport r = relax(problem_, energy, relaxation);
+  problem_.points.swap(region_.points);
   report_.relaxation_iterations += r.iterations;
   return r;
 }
@@ -90,70 +87,67 @@ RelaxationReport Parametrization::relax_once(const Energy& energy,
 bool Parametrization::untangle() {
   constexpr int kIterations = 8;     // short rounds: the last one ends soon after nothing is flat
   constexpr int kRoundsPerGoal = 3;  // closest points cost as much as a round
-  std::vector<TargetCuboid> targets = target_cuboids(region_, options_.target);
-  double least = least_determinant(targets);
+  double least = least_determinant();
   if (least > kFlat) return true;
   report_.untangled = true;
   int rounds_without_gain = 0;
   for (int round = 0; round < options_.untangling_rounds; ++round) {
     FoldoverFree energy;
     energy.epsilon = FoldoverFree::epsilon_for(least - kFlat);
-    relax_once(energy, targets, kIterations);
-    targets = target_cuboids(region_, options_.target);
-    if ((round + 1) % kRoundsPerGoal == 0) {
-      goals_ = surface_goals(region_, reference_, options_.surface);
-    }
-    const double now = least_determinant(targets);
+    relax_once(energy, kIterations);
+    problem_.targets = target_cuboids(region_, options_.target);
+    if ((round + 1) % kRoundsPerGoal == 0) goals_ = constraint_.goals(region_);
+    const double now = least_determinant();
     if (now > kFlat) return true;
     rounds_without_gain = now > least + 0.1 * std::abs(least) ? 0 : rounds_without_gain + 1;
     if (rounds_without_gain == 4) break;
     least = now;
   }
-  return least_determinant(targets) > 0;
+  return least_determinant() > 0;
 }
 
 double Parametrization::largest_relative_move(const Eigen::Matrix3Xd& from) const {
   double largest = 0;
   for (int v = 0; v < region_.n_free; ++v) {
-    largest = std::max(
-        largest, (region_.points.col(v) - from.col(v)).norm() / std::max(lengths_[v], 1e-300));
+    const double length = std::max(lengths_[v], 1e-300);
+    largest =
+        std::max(largest, (region_.points.col(v) - from.col(v)).squaredNorm() / (length * length));
   }
-  return largest;
+  return std::sqrt(largest);
 }
 
 void Parametrization::iterate() {
   constexpr double kSmallMove = 2e-3;  // of an edge length
   constexpr double kLeastKept = 0.5;   // of the best scaled Jacobian met on the way
-  double best = least_scaled_jacobian();
-  Eigen::Matrix3Xd best_points = region_.points;
+  double best = measure(), now = best;
+  Eigen::Matrix3Xd best_points = region_.points, before;
   while (report_.iterations < options_.max_iterations) {
-    const Eigen::Matrix3Xd before = region_.points;
-    std::vector<TargetCuboid> targets = target_cuboids(region_, options_.target);
-    weigh_bad_hexes(targets);
-    if (!relax_once(options_.energy, targets, options_.relaxation_iterations).feasible) break;
-    goals_ = surface_goals(region_, reference_, options_.surface);
-    report_.on_surface = move_to_goals(region_, goals_, kLeastOnProjection);
+    before = region_.points;
+    if (report_.iterations > 0) problem_.targets = target_cuboids(region_, options_.target);
+    weigh_bad_hexes();
+    if (!relax_once(options_.energy, options_.relaxation_iterations).feasible) break;
+    goals_ = constraint_.goals(region_);
+    report_.on_surface = constraint_.move_to_goals(region_, goals_, options_.least_on_projection);
     ++report_.iterations;
-    const double least = least_scaled_jacobian();
-    if (least > best) {
-      best = least;
+    now = measure();
+    if (now > best) {
+      best = now;
       best_points = region_.points;
     }
     if (largest_relative_move(before) < kSmallMove) break;
   }
   // Later iterations are better spread and closer to the surface; go back only for validity.
-  const double now = least_scaled_jacobian();
   if (now < best && (now < kLeastKept * best || now <= options_.min_scaled_jacobian)) {
     region_.points = best_points;
   }
 }
 
 ParametrizationReport Parametrization::run() {
-  report_.initial_min_scaled_jacobian = least_scaled_jacobian();
+  report_.initial_min_scaled_jacobian = measure();
   if (untangle()) iterate();
-  const std::vector<double> sj = scaled_jacobians(region_.points, region_.hexes);
+  report_.min_scaled_jacobian = measure();
+  const std::vector<double>& sj = scaled_jacobians_;
   if (sj.empty()) return report_;
-  report_.min_scaled_jacobian = *std::min_element(sj.begin(), sj.end());
   report_.mean_scaled_jacobian =
       std::accumulate(sj.begin(), sj.end(), 0.0) / static_cast<double>(sj.size());
   if (!(report_.min_scaled_jacobian > 0)) {
@@ -199,6 +193,8 @@ void validate(const ParametrizationOptions& o) {
   require(o.surface.weight > 0, "surface.weight", o.surface.weight, "> 0");
   require(o.surface.feature_angle_deg > 0 && o.surface.feature_angle_deg <= 180,
           "surface.feature_angle_deg", o.surface.feature_angle_deg, "(0, 180]");
+  require(o.least_on_projection >= -1 && o.least_on_projection <= 1, "least_on_projection",
+          o.least_on_projection, "[-1, 1]");
   require(o.goal_weight > 0, "goal_weight", o.goal_weight, "> 0");
   require(o.target.size_blend >= 0 && o.target.size_blend <= 1, "size_blend", o.target.size_blend,
           "[0, 1]");

@@ -24,13 +24,14 @@ namespace hexweft {
 
 struct ParametrizationOptions {
   Energy energy = InverseScaledJacobian{};  ///< a barrier energy
-  int max_iterations = 5;                ///< > 0, each with new target shapes and a projection
-  int relaxation_iterations = 10;        ///< > 0, L-BFGS steps in each
-  int untangling_rounds = 15;        ///< ≥ 0, each with a smaller ε; 0: an inverted start fails
-  double min_scaled_jacobian = 0;    ///< [-1, 1), below it the result is not valid
-  double quality_goal = 0.8;         ///< [0, 1], hexahedra of lower scaled Jacobian weigh more
-  double quality_weight_limit = 30;  ///< ≥ 1, the most one hexahedron may weigh
-  double goal_weight = 10;           ///< > 0, of vertex goals; one hexahedron's distortion is 1
+  int max_iterations = 5;                   ///< > 0, each with new target shapes and a projection
+  int relaxation_iterations = 10;           ///< > 0, L-BFGS steps in each
+  int untangling_rounds = 15;         ///< ≥ 0, each with a smaller ε; 0: an inverted start fails
+  double min_scaled_jacobian = 0;     ///< [-1, 1), below it the result is not valid
+  double quality_goal = 0.8;          ///< [0, 1], hexahedra of lower scaled Jacobian weigh more
+  double quality_weight_limit = 30;   ///< ≥ 1, the most one hexahedron may weigh
+  double least_on_projection = 0.15;  ///< [-1, 1], no projection takes a scaled Jacobian below it
+  double goal_weight = 10;            ///< > 0, of vertex goals; one hexahedron's distortion is 1
   SurfaceOptions surface = {};
   TargetShapeOptions target = {};
 };

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "optimize/hausdorff.h"
+#include "optimize/partial_move.h"
 #include "optimize/region.h"
 #include "optimize/surface_distance.h"
 #include "ovm/errors.h"
@@ -27,6 +28,22 @@ std::vector<double> quality(const HexMesh& mesh, const std::vector<CellHandle>& 
   return scaled_jacobians(region.points, region.hexes);
 }
 
+struct Measure {
+  double least, mean;
+};
+
+Measure measure(const std::vector<double>& sj) {
+  const auto n = static_cast<double>(sj.size());
+  Measure m{1, 0};
+  for (const double x : sj) {
+    m.least = std::min(m.least, x);
+    m.mean += x / n;
+  }
+  return m;
+}
+
+constexpr SurfaceDistanceOptions kSamples{.mesh_levels = 1, .reference_levels = 1};
+
 class Smoother {
  public:
   /// \param limit  of the distance, model units
@@ -41,103 +58,131 @@ class Smoother {
   SmoothingReport run();
 
  private:
-  static constexpr SurfaceDistanceOptions kSamples{.mesh_levels = 1, .reference_levels = 1};
-
-  bool attempt(const std::vector<CellHandle>& region, const ParametrizationOptions& options,
-               double least_gain);
+  bool attempt(const std::vector<CellHandle>& cells, const ParametrizationOptions& options,
+               double floor, double least_gain, double mean_gain);
   void relax_globally();
   void relax_worst_cells();
+  bool relax_round(CellHandle worst, double least_gain);
+  bool stopped() const { return options_.stop.stop_requested(); }
 
   HexMesh& mesh_;
   const SmoothingOptions& options_;
   SurfaceDistance distance_;
   std::vector<CellHandle> cells_;
+  std::vector<CellHandle> moved_;  // of the last attempt
   double limit_;
+  double mean_ = 1;  // scaled Jacobian of the mesh
   SmoothingReport report_;
 };
 
-/// Parametrizes the region; keeps the result if its least scaled Jacobian gains enough and the
-/// surface stays in its limit.
-bool Smoother::attempt(const std::vector<CellHandle>& region, const ParametrizationOptions& options,
-                       double least_gain) {
+/// Parametrizes the cells and keeps of it what leaves none below `floor` and the surface in its
+/// limit; all is undone unless their least or their mean scaled Jacobian gains enough, the least does
+/// not fall, and the mean over the mesh stays above what it was at the start.
+bool Smoother::attempt(const std::vector<CellHandle>& cells, const ParametrizationOptions& options,
+                       double floor, double least_gain, double mean_gain) {
   ++report_.trials;
   Transaction trial(mesh_);
-  const ParametrizationReport r = parametrize(mesh_, region, distance_.reference(), options);
-  const double before = r.initial_min_scaled_jacobian;
-  if (!(r.min_scaled_jacobian >= before + least_gain)) return false;
-  if (distance_.after_change(mesh_, region, limit_) > limit_) {
+  const Region region = make_region(mesh_, cells);
+  const Measure before = measure(scaled_jacobians(region.points, region.hexes));
+  parametrize(mesh_, cells, distance_.reference(), options);
+  if (!keep_what_fits(mesh_, region, distance_, {floor, limit_})) return false;
+  const Measure now = measure(quality(mesh_, cells));
+  const bool gains = now.least >= before.least + least_gain || now.mean >= before.mean + mean_gain;
+  const double mesh_mean = mean_ + (now.mean - before.mean) * static_cast<double>(cells.size()) /
+                                       static_cast<double>(cells_.size());
+  const bool falls = now.least < before.least ||
+                     (now.mean < before.mean && mesh_mean < report_.initial_mean_scaled_jacobian);
+  if (!gains || falls) {
     distance_.rollback();
     return false;
   }
+  mean_ = mesh_mean;
   distance_.commit();
   trial.commit();
   return true;
 }
 
-/// Whole-mesh passes. When one is refused, the other treatment of the surface, and then fewer
-/// iterations, which move less, are tried.
+/// Whole-mesh passes, while they gain something. Where the one treatment of the surface gains
+/// nothing, the other is tried.
 void Smoother::relax_globally() {
-  for (int round = 0; round < options_.global_rounds; ++round) {
-    ParametrizationOptions o = options_.parametrization;
-    bool accepted = attempt(cells_, o, 0);
-    if (!accepted) {
-      const bool fit = o.surface.treatment == SurfaceTreatment::fit;
-      o.surface.treatment = fit ? SurfaceTreatment::project : SurfaceTreatment::fit;
-      accepted = attempt(cells_, o, 0);
+  constexpr double kLeastGain = 5e-3, kMeanGain = 5e-4;
+  ParametrizationOptions o = options_.parametrization;
+  bool failed = false;
+  for (int round = 0; round < options_.global_rounds && !stopped(); ++round) {
+    const double floor = measure(quality(mesh_, cells_)).least;
+    if (attempt(cells_, o, floor, kLeastGain, kMeanGain)) {
+      ++report_.accepted_global;
+      failed = false;
+      continue;
     }
-    if (!accepted) {
-      o = options_.parametrization;
-      o.max_iterations = 1;
-      accepted = attempt(cells_, o, 0);
-    }
-    if (!accepted) break;
-    ++report_.accepted_global;
+    if (failed) break;
+    failed = true;
+    const bool fit = o.surface.treatment == SurfaceTreatment::fit;
+    o.surface.treatment = fit ? SurfaceTreatment::project : SurfaceTreatment::fit;
   }
 }
 
-/// Worst cell first, in growing neighborhoods; a cell whose neighborhoods all fail is left alone.
-void Smoother::relax_worst_cells() {
-  constexpr double kGain = 1e-3;
-  std::vector<char> left_alone(mesh_.cell_slots(), 0);
-  std::vector<double> sj = quality(mesh_, cells_);
-  std::vector<int> position(mesh_.cell_slots(), -1);
-  for (std::size_t i = 0; i < cells_.size(); ++i) position[cells_[i].idx] = static_cast<int>(i);
-  ParametrizationOptions o = options_.parametrization;
+/// One cell's neighborhoods, growing, first with its surface held as everywhere, then with a surface
+/// that gives way as far as the distance limit allows.
+bool Smoother::relax_round(CellHandle worst, double least_gain) {
+  struct Rung {
+    int rings;
+    double surface_weight, least_on_projection;
+  };
+  const ParametrizationOptions& p = options_.parametrization;
+  const Rung ladder[] = {{2, p.surface.weight, p.least_on_projection},
+                         {2, 0.03 * p.surface.weight, 0.5},
+                         {4, 0.03 * p.surface.weight, 0.5}};
+  ParametrizationOptions o = p;
   o.quality_goal = 1;
   o.quality_weight_limit = 1e3;
+  const CellHandle seed[1] = {worst};
+  for (const Rung& rung : ladder) {
+    moved_ = grow_cells(mesh_, seed, rung.rings);
+    o.surface.weight = rung.surface_weight;
+    o.least_on_projection = rung.least_on_projection;
+    const double floor = measure(quality(mesh_, moved_)).least;
+    if (attempt(moved_, o, floor + least_gain, least_gain, 1)) return true;
+  }
+  return false;
+}
+
+/// Worst cell first; one of which the neighborhoods all fail is left alone.
+void Smoother::relax_worst_cells() {
+  constexpr double kGain = 1e-3;
+  std::vector<double> sj(mesh_.cell_slots(), 1);
+  std::vector<char> left_alone(mesh_.cell_slots(), 0);
+  const auto measure_again = [&](const std::vector<CellHandle>& cells) {
+    const std::vector<double> now = quality(mesh_, cells);
+    for (std::size_t i = 0; i < cells.size(); ++i) sj[cells[i].idx] = now[i];
+  };
+  measure_again(cells_);
   const int last = report_.trials + options_.local_trials;
-  while (report_.trials < last) {
-    int worst = -1;
-    for (std::size_t i = 0; i < cells_.size(); ++i) {
-      if (left_alone[cells_[i].idx] || sj[i] >= options_.enough_scaled_jacobian) continue;
-      if (worst < 0 || sj[i] < sj[worst]) worst = static_cast<int>(i);
+  while (report_.trials < last && !stopped()) {
+    CellHandle worst;
+    for (CellHandle c : cells_) {
+      if (left_alone[c.idx] || sj[c.idx] >= options_.enough_scaled_jacobian) continue;
+      if (!worst.valid() || sj[c.idx] < sj[worst.idx]) worst = c;
     }
-    if (worst < 0) break;
-    const CellHandle seed[1] = {cells_[worst]};
-    bool accepted = false;
-    for (int rings : {2, 3}) {
-      const std::vector<CellHandle> region = grow_cells(mesh_, seed, rings);
-      accepted = attempt(region, o, kGain);
-      if (!accepted) continue;
+    if (!worst.valid()) break;
+    if (relax_round(worst, kGain)) {
       ++report_.accepted_local;
-      const std::vector<double> now = quality(mesh_, region);
-      for (std::size_t i = 0; i < region.size(); ++i) sj[position[region[i].idx]] = now[i];
-      break;
+      measure_again(moved_);
+    } else {
+      left_alone[worst.idx] = 1;
     }
-    if (!accepted) left_alone[cells_[worst].idx] = 1;
   }
 }
 
 SmoothingReport Smoother::run() {
-  const auto summarize = [&](double& least, double& mean) {
-    const std::vector<double> sj = quality(mesh_, cells_);
-    least = *std::min_element(sj.begin(), sj.end());
-    mean = std::accumulate(sj.begin(), sj.end(), 0.0) / static_cast<double>(sj.size());
-  };
-  summarize(report_.initial_min_scaled_jacobian, report_.initial_mean_scaled_jacobian);
+  const Measure before = measure(quality(mesh_, cells_));
+  report_.initial_min_scaled_jacobian = before.least;
+  report_.initial_mean_scaled_jacobian = mean_ = before.mean;
   relax_globally();
   relax_worst_cells();
-  summarize(report_.min_scaled_jacobian, report_.mean_scaled_jacobian);
+  const Measure now = measure(quality(mesh_, cells_));
+  report_.min_scaled_jacobian = now.least;
+  report_.mean_scaled_jacobian = now.mean;
   return report_;
 }
 

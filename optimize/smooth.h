@@ -4,7 +4,7 @@
 ///     const SmoothingReport report = smooth(mesh, reference);
 #pragma once
 
-#include <optional>
+#include <stop_token>
 
 #include "optimize/local_parametrization.h"
 
@@ -17,6 +17,7 @@ struct SmoothingOptions {
   double enough_scaled_jacobian =
       0.6;  ///< [0, 1], cells at least this good are not worked on one by one
   ParametrizationOptions parametrization = {.surface = {.treatment = SurfaceTreatment::fit}};
+  std::stop_token stop = {};  ///< ends after the pass at hand
 };
 void validate(const SmoothingOptions& options);  ///< \throws InputError
 
@@ -27,10 +28,11 @@ struct SmoothingReport {
   int accepted_global = 0, accepted_local = 0, trials = 0;
 };
 
-/// First the whole mesh is relaxed, then the neighborhoods of its worst cells, worst first. A pass
-/// that would lower the least scaled Jacobian (of the mesh; of the neighborhood for a local one),
-/// or bring the Hausdorff distance over the limit or over what it was if that is more, is undone.
-/// An inverted mesh is untangled if it can be.
+/// First the whole mesh is relaxed, then the neighborhoods of its worst cells, worst first. Of a pass
+/// is kept what lowers no hexahedron below the least scaled Jacobian (of the mesh; of the
+/// neighborhood for a local one), and no part of the surface over the Hausdorff limit or over what
+/// the distance was if that is more; a pass that then gains nothing is undone. Ends when nothing
+/// gains. An inverted mesh is untangled if it can be.
 SmoothingReport smooth(HexMesh& mesh, const ReferenceSurface& reference,
                        const SmoothingOptions& options = {});
 

@@ -41,8 +41,9 @@ struct Deviation {
   double middle() const { return (least + greatest) / 2; }
 };
 
+/// \param near_quad  the triangle closest to each quad's centre, if known; updated
 std::vector<Deviation> deviations(const Region& region, const RegionNormals& normals,
-                                  const ReferenceSurface& reference) {
+                                  const ReferenceSurface& reference, std::vector<int>& near_quad) {
   std::vector<Deviation> result(region.points.cols());
   int near = -1;
   for (std::size_t i = 0; i < region.quads.size(); ++i) {
@@ -55,7 +56,9 @@ std::vector<Deviation> deviations(const Region& region, const RegionNormals& nor
       near = s.triangle;
       return std::copysign(s.distance, (s.point - at).dot(normal));
     };
+    if (near_quad[i] >= 0) near = near_quad[i];
     const double centre = signed_distance((p[0] + p[2]) / 2);
+    near_quad[i] = near;
     for (int k = 0; k < 4; ++k) {
       result[q[k]].take(centre);
       // The quad on the other side runs along this edge the other way: one of the two looks at it.
@@ -154,9 +157,9 @@ void leave_to_chains(const Region& region, const FeatureCurves& curves,
 /// quads round them.
 void fit_planes(const Region& region, const RegionNormals& normals,
                 const ReferenceSurface& reference, const std::vector<char>& plane,
-                std::vector<SurfaceGoal>& goals) {
+                std::vector<int>& near_quad, std::vector<SurfaceGoal>& goals) {
   constexpr double kDamping = 0.7;  // neighbors move the same way; undamped they would overshoot
-  std::vector<Deviation> deviation = deviations(region, normals, reference);
+  std::vector<Deviation> deviation = deviations(region, normals, reference, near_quad);
   for (SurfaceGoal& goal : goals) {
     if (!plane[goal.vertex]) continue;
     const Eigen::Vector3d p = region.points.col(goal.vertex);
@@ -168,107 +171,58 @@ void fit_planes(const Region& region, const RegionNormals& normals,
   }
 }
 
-/// Hexahedra at every free vertex, as one array with offsets.
-struct VertexHexes {
-  explicit VertexHexes(const Region& region) : first(region.n_free + 1, 0) {
-    for (const auto& hex : region.hexes) {
-      for (int v : hex) {
-        if (v < region.n_free) ++first[v + 1];
-      }
-    }
-    for (int v = 0; v < region.n_free; ++v) first[v + 1] += first[v];
-    hexes.resize(first.back());
-    std::vector<int> next(first.begin(), first.end() - 1);
-    for (std::size_t h = 0; h < region.hexes.size(); ++h) {
-      for (int v : region.hexes[h]) {
-        if (v < region.n_free) hexes[next[v]++] = static_cast<int>(h);
-      }
-    }
-  }
-  std::vector<int> first, hexes;
-};
-
 }  // namespace
 
-std::vector<SurfaceGoal> surface_goals(const Region& region, const ReferenceSurface& reference,
-                                       const SurfaceOptions& options) {
-  const RegionNormals normals(region);
-  const double half_angle = options.feature_angle_deg * std::numbers::pi / 360;
-  const double threshold = std::sin(half_angle) * std::sin(half_angle);
+std::vector<SurfacePoint> SurfaceConstraint::closest_points(
+    const Region& region, const Eigen::Matrix3Xd& vertex_normals) {
   std::vector<SurfacePoint> closest;
   closest.reserve(region.surface.size());
-  std::vector<char> at_feature(region.points.cols(), 0), plane(region.points.cols(), 0);
-  for (int v : region.surface) {
-    const int near = closest.empty() ? -1 : closest.back().triangle;
-    closest.push_back(reference.closest(region.points.col(v), normals.vertex.col(v), near));
-    at_feature[v] = reference.at_feature(closest.back().triangle);
+  for (std::size_t i = 0; i < region.surface.size(); ++i) {
+    const int v = region.surface[i];
+    int& near = near_vertex_[i];
+    if (near < 0 && i > 0) near = near_vertex_[i - 1];
+    closest.push_back(reference_.closest(region.points.col(v), vertex_normals.col(v), near));
+    near = closest.back().triangle;
   }
-  const std::vector<FeatureLabel> labels =
-      assign_features(region.points, region.quads, region.n_free, reference);
-  leave_to_chains(region, reference.curves(), labels, at_feature);
-  std::vector<TangentPlanes> planes = tangent_planes(region, normals, reference, at_feature);
+  return closest;
+}
+
+std::vector<SurfaceGoal> SurfaceConstraint::goals(const Region& region) {
+  const RegionNormals normals(region);
+  const double half_angle = options_.feature_angle_deg * std::numbers::pi / 360;
+  const double threshold = std::sin(half_angle) * std::sin(half_angle);
+  const std::vector<SurfacePoint> closest = closest_points(region, normals.vertex);
+  std::vector<char> at_feature(region.points.cols(), 0), plane(region.points.cols(), 0);
+  for (std::size_t i = 0; i < closest.size(); ++i) {
+    at_feature[region.surface[i]] = reference_.at_feature(closest[i].triangle);
+  }
+  leave_to_chains(region, reference_.curves(), labels_, at_feature);
+  std::vector<TangentPlanes> planes = tangent_planes(region, normals, reference_, at_feature);
   std::vector<SurfaceGoal> goals;
   goals.reserve(region.surface.size());
   for (std::size_t i = 0; i < region.surface.size(); ++i) {
     const int v = region.surface[i];
     const SurfacePoint& s = closest[i];
-    if (labels[v].is_any()) {
-      goals.push_back(goal_on_feature(reference.curves(), labels[v], v, region.points.col(v)));
+    if (labels_[v].is_any()) {
+      goals.push_back(goal_on_feature(reference_.curves(), labels_[v], v, region.points.col(v)));
     } else if (at_feature[v]) {
       planes[v].take(s.normal, s.point);
       goals.push_back(goal_on(planes[v], v, region.points.col(v), s, normals.vertex.col(v),
-                              threshold, reference));
+                              threshold, reference_));
     } else {
       goals.push_back({v, s.point, s.normal * s.normal.transpose()});
     }
     plane[v] = goals.back().fixed.trace() < 1.5;
   }
-  if (options.treatment == SurfaceTreatment::project) return goals;
-  if (reference.curves().n_lines() > 0) fit_lines(region, reference.curves(), labels, goals);
-  fit_planes(region, normals, reference, plane, goals);
+  if (options_.treatment == SurfaceTreatment::project) return goals;
+  if (reference_.curves().n_lines() > 0) fit_lines(region, reference_.curves(), labels_, goals);
+  fit_planes(region, normals, reference_, plane, near_quad_, goals);
   return goals;
 }
 
-std::vector<VertexPull> surface_pulls(const Region& region, const std::vector<SurfaceGoal>& goals,
-                                      double weight) {
-  const std::vector<double> lengths = edge_lengths_at_vertices(region);
-  std::vector<VertexPull> pulls;
-  pulls.reserve(goals.size());
-  for (const SurfaceGoal& g : goals) {
-    const double length = std::max(lengths[g.vertex], 1e-300);
-    pulls.push_back({g.vertex, weight / (length * length) * g.fixed, g.point});
-  }
-  return pulls;
-}
-
-double move_to_goals(Region& region, const std::vector<SurfaceGoal>& goals, double least) {
-  constexpr int kHalvings = 5;
-  if (goals.empty()) return 1;
-  const VertexHexes around(region);
-  const Eigen::Matrix3Xd start = region.points;
-  const std::vector<double> before = scaled_jacobians(start, region.hexes);
-  std::vector<double> fraction(region.n_free, 1.0);
-  for (int round = 0; round <= kHalvings; ++round) {
-    for (const SurfaceGoal& g : goals) {
-      const double f = fraction[g.vertex];
-      region.points.col(g.vertex) = (1 - f) * start.col(g.vertex) + f * g.point;
-    }
-    const std::vector<double> now = scaled_jacobians(region.points, region.hexes);
-    bool good = true;
-    for (const SurfaceGoal& g : goals) {
-      for (int i = around.first[g.vertex]; i < around.first[g.vertex + 1]; ++i) {
-        const int h = around.hexes[i];
-        if (now[h] >= std::min(least, before[h]) || fraction[g.vertex] == 0) continue;
-        fraction[g.vertex] = round + 1 >= kHalvings ? 0 : fraction[g.vertex] / 2;
-        good = false;
-        break;
-      }
-    }
-    if (good) break;
-  }
-  const auto all_the_way = [&](const SurfaceGoal& g) { return fraction[g.vertex] == 1; };
-  return static_cast<double>(std::count_if(goals.begin(), goals.end(), all_the_way)) /
-         static_cast<double>(goals.size());
+std::vector<SurfaceGoal> surface_goals(const Region& region, const ReferenceSurface& reference,
+                                       const SurfaceOptions& options) {
+  return SurfaceConstraint(region, reference, options).goals(region);
 }
 
 }  // namespace hexweft

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "optimize/feature_assignment.h"
 #include "optimize/reference_surface.h"
 #include "optimize/region.h"
 #include "optimize/relaxation.h"
@@ -30,23 +31,51 @@ struct SurfaceGoal {
   Eigen::Matrix3d fixed;  ///< projector onto the directions it must not move in
 };
 
-/// One goal for each vertex of region.surface, in that order. Vertices that stand for a feature of
-/// the reference (feature_assignment.h) slide along its line, or stay in its corner; with `fit` the
-/// chain of edges along a curved line errs to both sides of it. For the others, closest points are
-/// looked for among the triangles that face as the quads at the vertex do, so that a thin part keeps
-/// its two sides apart. Where no chain was found for a line, the tangent planes met a little way into
-/// the quads round a vertex tell what it sits on: nearly one plane, and it slides on it; two, and it
-/// slides along their line; more, and it stays in the corner.
+/// The surface vertices of one region, while it moves: what each stands for, which is decided once,
+/// and where on the reference it was last, which makes the next closest point quick to find.
+///
+/// Vertices that stand for a feature of the reference (feature_assignment.h) slide along its line,
+/// or stay in its corner; with `fit` the chain of edges along a curved line errs to both sides of
+/// it. For the others, closest points are looked for among the triangles that face as the quads at
+/// the vertex do, so that a thin part keeps its two sides apart. Where no chain was found for a
+/// line, the tangent planes met a little way into the quads round a vertex tell what it sits on:
+/// nearly one plane, and it slides on it; two, and it slides along their line; more, and it stays in
+/// the corner.
+class SurfaceConstraint {
+ public:
+  /// Later calls take the same region with other points.
+  /// \param reference  must outlive this
+  SurfaceConstraint(const Region& region, const ReferenceSurface& reference,
+                    const SurfaceOptions& options);
+
+  /// One for each vertex of region.surface, in that order.
+  std::vector<SurfaceGoal> goals(const Region& region);
+
+  /// Replaces `pulls`, for the region at `points`, by those of `weight` / (edge length at the vertex)².
+  void pulls(const Eigen::Matrix3Xd& points, const std::vector<SurfaceGoal>& goals, double weight,
+             std::vector<VertexPull>& pulls) const;
+
+  /// Moves the surface vertices to their goals, each as far as no hexahedron's scaled Jacobian falls
+  /// under `least`, nor falls at all where it is under it. \return the fraction of vertices that
+  /// got all the way
+  double move_to_goals(Region& region, const std::vector<SurfaceGoal>& goals, double least) const;
+
+ private:
+  void find_hexes_at_surface(const Region& region);
+  std::vector<SurfacePoint> closest_points(const Region& region,
+                                           const Eigen::Matrix3Xd& vertex_normals);
+
+  const ReferenceSurface& reference_;
+  SurfaceOptions options_;
+  std::vector<FeatureLabel> labels_;  // by vertex
+  std::vector<int> near_vertex_;      // triangle last closest, by vertex of region.surface
+  std::vector<int> near_quad_;        // and to the centre of each quad
+  std::vector<HexCorners> hexes_;     // those with a free surface vertex
+  std::vector<int> first_, around_;   // those at region.surface[i]: around_[first_[i]] and on
+};
+
+/// Goals from the points as they are.
 std::vector<SurfaceGoal> surface_goals(const Region& region, const ReferenceSurface& reference,
                                        const SurfaceOptions& options);
-
-/// Pulls of `weight` / (edge length at the vertex)².
-std::vector<VertexPull> surface_pulls(const Region& region, const std::vector<SurfaceGoal>& goals,
-                                      double weight);
-
-/// Moves the surface vertices to their goals, each as far as no hexahedron's scaled Jacobian falls
-/// under `least`, nor falls at all where it is under it. \return the fraction of vertices that got
-/// all the way
-double move_to_goals(Region& region, const std::vector<SurfaceGoal>& goals, double least);
 
 }  // namespace hexweft

@@ -3,33 +3,29 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Geometry>
+#include "optimize/energies/kernels.h"
 
 namespace hexweft {
 namespace {
 
-/// Mean length of each set of four parallel edges.
-Eigen::Vector3d mean_lengths(const Eigen::Matrix3Xd& points, const HexCorners& hex) {
-  Eigen::Vector3d lengths = Eigen::Vector3d::Zero();
-  for (int e = 0; e < kHexEdges; ++e) {
-    const auto& [a, b] = kEdgeCorners[e];
-    lengths[edge_axis(e)] += (points.col(hex[a]) - points.col(hex[b])).norm() / 4;
-  }
-  return lengths;
-}
-
-/// Volume as the mean of the corner determinants, which is enough to scale a target.
-double corner_volume(const Eigen::Matrix3Xd& points, const HexCorners& hex) {
-  double volume = 0;
-  for (int c = 0; c < kCorners; ++c) {
-    Eigen::Matrix3d edges;
-    for (int k = 0; k < 3; ++k) {
-      edges.col(k) = points.col(hex[kCornerNeighbors[c][k]]) - points.col(hex[c]);
+/// Mean length of each set of four parallel edges, and the volume as the mean of the corner
+/// determinants, which is enough to scale a target. Each edge is met at both its ends.
+struct LengthsAndVolumes {
+  HEXWEFT_INLINE static void run(const double* points, const std::span<const HexCorners>& hexes,
+                                 TargetCuboid* targets, double* volumes) {
+    for (std::size_t h = 0; h < hexes.size(); ++h) {
+      const Vec3<Lanes> x = kernels::gather(points, hexes[h]);
+      Mat3<Lanes> edges;
+      edges.col[0] = kernels::axis_sign(0) * (kernels::across<0>(x) - x);
+      edges.col[1] = kernels::axis_sign(1) * (kernels::across<1>(x) - x);
+      edges.col[2] = kernels::axis_sign(2) * (kernels::across<2>(x) - x);
+      for (int a = 0; a < 3; ++a) {
+        targets[h].lengths[a] = lane_sum(square_root(dot(edges.col[a], edges.col[a]))) / kCorners;
+      }
+      volumes[h] = lane_sum(dot(edges.col[0], cross(edges.col[1], edges.col[2]))) / kCorners;
     }
-    volume += edges.determinant() / kCorners;
   }
-  return volume;
-}
+};
 
 void blend_along_axes(const Region& region, double blend, std::vector<TargetCuboid>& targets) {
   const std::vector<TargetCuboid> before = targets;
@@ -52,16 +48,18 @@ void blend_along_axes(const Region& region, double blend, std::vector<TargetCubo
 
 std::vector<TargetCuboid> target_cuboids(const Region& region, const TargetShapeOptions& options) {
   std::vector<TargetCuboid> targets(region.hexes.size());
+  std::vector<double> volumes(targets.size());
+  kernels::run<LengthsAndVolumes>(available(InstructionSet::automatic), region.points.data(),
+                                  std::span<const HexCorners>(region.hexes), targets.data(),
+                                  volumes.data());
   double mean = 0;
-  for (std::size_t h = 0; h < targets.size(); ++h) {
-    targets[h].lengths = mean_lengths(region.points, region.hexes[h]);
-    mean += targets[h].lengths.mean() / static_cast<double>(targets.size());
-  }
+  for (const TargetCuboid& t : targets) mean += t.lengths.mean();
+  mean /= static_cast<double>(std::max<std::size_t>(1, targets.size()));
   const double least = options.least_length_rel * mean + 1e-300;
   for (std::size_t h = 0; h < targets.size(); ++h) {
     Eigen::Vector3d& lengths = targets[h].lengths;
     lengths = lengths.cwiseMax(least);
-    const double fill = corner_volume(region.points, region.hexes[h]) / lengths.prod();
+    const double fill = volumes[h] / lengths.prod();
     lengths *=
         std::cbrt(std::clamp(fill, 0.2, 1.0));  // a collapsed volume says nothing about the target
   }

@@ -130,6 +130,27 @@ TEST(Parametrize, UntanglesInvertedStarts) {
   }
 }
 
+TEST(Parametrize, UntanglesMeshesWithATenthOfTheirInnerVerticesThrownAbout) {
+  const HexMesh meshes[] = {make_grid({8, 8, 8}), make_octree_like(Shape::blob, 12, 1),
+                            make_torus({.n_core = 3, .n_around = 32, .n_ring = 2}), make_ball(6),
+                            make_octree_like(Shape::double_torus, 16, 1)};
+  for (const HexMesh& good : meshes) {
+    const auto reference = make_reference_surface(good);
+    const double length = mean_edge_length(good);
+    for (unsigned seed = 1; seed <= 4; ++seed) {
+      HexMesh mesh = good;
+      Random random(seed);
+      for (VertexHandle v : mesh.vertices()) {
+        if (mesh.is_boundary(v) || random.below(10) > 0) continue;
+        mesh.set_point(v, mesh.point(v) + random.in_cube(2 * length));
+      }
+      ASSERT_LT(min_scaled_jacobian(mesh), 0);
+      EXPECT_TRUE(parametrize(mesh, all_cells(mesh), reference).valid()) << "seed " << seed;
+      EXPECT_GT(min_scaled_jacobian(mesh), 0) << "seed " << seed;
+    }
+  }
+}
+
 TEST(Parametrize, ReportsWhatItCouldNotRepair) {
   HexMesh mesh = make_grid({3, 3, 3});
   const auto reference = make_reference_surface(mesh);

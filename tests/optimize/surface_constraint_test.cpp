@@ -104,8 +104,10 @@ TEST(SurfaceConstraint, PullsScaleWithTheEdgeLength) {
   const HexMesh cube = make_grid({2, 2, 2}, kBox);
   const ReferenceSurface reference = make_reference_surface(cube);
   const Region region = make_region(cube, all_cells(cube));
-  const auto goals = surface_goals(region, reference, {});
-  const auto pulls = surface_pulls(region, goals, 8);
+  SurfaceConstraint constraint(region, reference, {});
+  const auto goals = constraint.goals(region);
+  std::vector<VertexPull> pulls;
+  constraint.pulls(region.points, goals, 8, pulls);
   ASSERT_EQ(pulls.size(), goals.size());
   for (std::size_t i = 0; i < pulls.size(); ++i) {
     EXPECT_EQ(pulls[i].vertex, goals[i].vertex);
@@ -122,7 +124,9 @@ TEST(SurfaceConstraint, AMoveEndsBeforeAHexahedronInverts) {
     goals.push_back({v, Eigen::Vector3d(0.5, 0.5, 0.5) - 2 * (p - Eigen::Vector3d(0.5, 0.5, 0.5)),
                      Eigen::Matrix3d::Identity()});
   }
-  EXPECT_LT(move_to_goals(region, goals, 0.15), 1);
+  const ReferenceSurface reference = make_reference_surface(cube);
+  const SurfaceConstraint constraint(region, reference, {});
+  EXPECT_LT(constraint.move_to_goals(region, goals, 0.15), 1);
   for (double sj : scaled_jacobians(region.points, region.hexes)) EXPECT_GE(sj, 0.15);
 }
 

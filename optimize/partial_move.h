@@ -1,0 +1,27 @@
+/// \file
+/// Keeps as much of a move of vertices as the hexahedra and the surface bear.
+///
+///     const Region before = make_region(mesh, cells);
+///     ...move vertices of the cells...
+///     if (keep_what_fits(mesh, before, distance, limits)) { ...; distance.commit(); }
+#pragma once
+
+#include "optimize/region.h"
+#include "optimize/surface_distance.h"
+
+namespace hexweft {
+
+struct MoveLimits {
+  double least_scaled_jacobian;  ///< no hexahedron ends below this, nor falls if it was below it
+  double distance;               ///< model units
+};
+
+/// Takes vertices back towards where they were, half the way and in the end all of it, round every
+/// hexahedron and side that breaks a limit, in ever wider surroundings.
+/// \param before    the region as it was; only its free vertices have moved
+/// \param distance  of the mesh before the move; afterwards, if true, up to date but not committed
+/// \return false if no part of the move fits; the points are then anything between
+bool keep_what_fits(HexMesh& mesh, const Region& before, SurfaceDistance& distance,
+                    const MoveLimits& limits);
+
+}  // namespace hexweft

@@ -1,0 +1,90 @@
+// What surface vertices do to the hexahedra at them: pulls, and moves as far as these bear.
+#include <algorithm>
+#include <cmath>
+
+#include "optimize/surface_constraint.h"
+
+namespace hexweft {
+
+SurfaceConstraint::SurfaceConstraint(const Region& region, const ReferenceSurface& reference,
+                                     const SurfaceOptions& options)
+    : reference_(reference),
+      options_(options),
+      labels_(assign_features(region.points, region.quads, region.n_free, reference)),
+      near_vertex_(region.surface.size(), -1),
+      near_quad_(region.quads.size(), -1) {
+  find_hexes_at_surface(region);
+}
+
+void SurfaceConstraint::find_hexes_at_surface(const Region& region) {
+  std::vector<int> position(region.points.cols(), -1);
+  for (std::size_t i = 0; i < region.surface.size(); ++i) {
+    position[region.surface[i]] = static_cast<int>(i);
+  }
+  first_.assign(region.surface.size() + 1, 0);
+  for (const HexCorners& hex : region.hexes) {
+    bool touches = false;
+    for (int v : hex) {
+      if (position[v] < 0) continue;
+      ++first_[position[v] + 1];
+      touches = true;
+    }
+    if (touches) hexes_.push_back(hex);
+  }
+  for (std::size_t i = 0; i + 1 < first_.size(); ++i) first_[i + 1] += first_[i];
+  around_.resize(first_.back());
+  std::vector<int> next(first_.begin(), first_.end() - 1);
+  for (std::size_t h = 0; h < hexes_.size(); ++h) {
+    for (int v : hexes_[h]) {
+      if (position[v] >= 0) around_[next[position[v]]++] = static_cast<int>(h);
+    }
+  }
+}
+
+void SurfaceConstraint::pulls(const Eigen::Matrix3Xd& points, const std::vector<SurfaceGoal>& goals,
+                              double weight, std::vector<VertexPull>& pulls) const {
+  pulls.clear();
+  for (std::size_t i = 0; i < goals.size(); ++i) {
+    const SurfaceGoal& g = goals[i];
+    double sum = 0;  // of squared lengths of the edges at the vertex, in every hexahedron
+    for (int k = first_[i]; k < first_[i + 1]; ++k) {
+      const HexCorners& hex = hexes_[around_[k]];
+      for (const auto& [a, b] : kEdgeCorners) {
+        if (hex[a] != g.vertex && hex[b] != g.vertex) continue;
+        sum += (points.col(hex[a]) - points.col(hex[b])).squaredNorm();
+      }
+    }
+    const double squared = std::max(sum / (3 * (first_[i + 1] - first_[i])), 1e-300);
+    pulls.push_back({g.vertex, weight / squared * g.fixed, g.point});
+  }
+}
+
+double SurfaceConstraint::move_to_goals(Region& region, const std::vector<SurfaceGoal>& goals,
+                                        double least) const {
+  constexpr int kHalvings = 5;
+  if (goals.empty()) return 1;
+  Eigen::Matrix3Xd start(3, static_cast<Eigen::Index>(goals.size()));
+  for (std::size_t i = 0; i < goals.size(); ++i) start.col(i) = region.points.col(goals[i].vertex);
+  const std::vector<double> before = scaled_jacobians(region.points, hexes_);
+  std::vector<double> fraction(goals.size(), 1.0);
+  for (int round = 0; round <= kHalvings; ++round) {
+    for (std::size_t i = 0; i < goals.size(); ++i) {
+      region.points.col(goals[i].vertex) =
+          (1 - fraction[i]) * start.col(i) + fraction[i] * goals[i].point;
+    }
+    const std::vector<double> now = scaled_jacobians(region.points, hexes_);
+    const auto falls = [&](int h) { return now[h] < std::min(least, before[h]); };
+    bool good = true;
+    for (std::size_t i = 0; i < goals.size(); ++i) {
+      const auto first = around_.begin() + first_[i], last = around_.begin() + first_[i + 1];
+      if (fraction[i] == 0 || std::none_of(first, last, falls)) continue;
+      fraction[i] = round + 1 >= kHalvings ? 0 : fraction[i] / 2;
+      good = false;
+    }
+    if (good) break;
+  }
+  return static_cast<double>(std::count(fraction.begin(), fraction.end(), 1.0)) /
+         static_cast<double>(goals.size());
+}
+
+}  // namespace hexweft

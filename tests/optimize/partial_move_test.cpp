@@ -1,0 +1,70 @@
+// What is left of a move that goes too far.
+#include "optimize/partial_move.h"
+
+#include <gtest/gtest.h>
+
+#include "ovm/transaction.h"
+#include "tests/optimize/test_meshes.h"
+
+namespace hexweft {
+namespace {
+
+struct Fixture {
+  HexMesh mesh = make_ball(6);
+  ReferenceSurface reference = make_reference_surface(mesh);
+  SurfaceDistance distance{mesh, reference};
+  Region before = make_region(mesh, all_cells(mesh));
+  std::vector<double> quality = scaled_jacobians(before.points, before.hexes);
+};
+
+TEST(PartialMove, KeepsAllOfAMoveThatFits) {
+  Fixture f;
+  perturb(f.mesh, 0.01, true, 1);
+  const auto moved = points_of(f.mesh);
+  EXPECT_TRUE(keep_what_fits(f.mesh, f.before, f.distance, {-1, 1}));
+  EXPECT_EQ(points_of(f.mesh), moved);
+  EXPECT_GT(f.distance.distance(), 1e-4);
+}
+
+TEST(PartialMove, TakesBackWhatInverts) {
+  Fixture f;
+  perturb(f.mesh, 0.3, false, 2);
+  ASSERT_LT(min_scaled_jacobian(f.mesh), 0);
+  const double least = *std::min_element(f.quality.begin(), f.quality.end());
+  EXPECT_TRUE(keep_what_fits(f.mesh, f.before, f.distance, {least, 1}));
+  EXPECT_GE(min_scaled_jacobian(f.mesh), least - 1e-12);
+}
+
+TEST(PartialMove, TakesBackOnlyWhereTheSurfaceLeavesTheLimit) {
+  Fixture f;
+  const double limit = 0.02;
+  VertexHandle far, near;
+  for (VertexHandle v : f.mesh.vertices()) {
+    if (!f.mesh.is_boundary(v)) continue;
+    if (f.mesh.point(v)[0] > 0.99) far = v;
+    if (f.mesh.point(v)[0] < -0.99) near = v;
+  }
+  ASSERT_TRUE(far.valid() && near.valid());
+  f.mesh.set_point(far, 1.1 * f.mesh.point(far));
+  f.mesh.set_point(near, 1.01 * f.mesh.point(near));
+  const Eigen::Vector3d near_goal = f.mesh.point(near);
+  EXPECT_TRUE(keep_what_fits(f.mesh, f.before, f.distance, {-1, limit}));
+  EXPECT_LE(f.distance.distance(), limit);
+  EXPECT_EQ(f.mesh.point(near), near_goal);
+  EXPECT_LT(f.mesh.point(far).norm(), 1.03);
+}
+
+TEST(PartialMove, LeavesTheDistanceToBeCommittedOrRolledBack) {
+  Fixture f;
+  const double before = f.distance.distance();
+  {
+    Transaction trial(f.mesh);
+    perturb(f.mesh, 0.02, true, 3);
+    EXPECT_TRUE(keep_what_fits(f.mesh, f.before, f.distance, {-1, 1}));
+    f.distance.rollback();
+  }
+  EXPECT_EQ(f.distance.distance(), before);
+}
+
+}  // namespace
+}  // namespace hexweft
