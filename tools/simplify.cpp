@@ -1,14 +1,18 @@
 // hexweft-simplify: the main job.
 #include "simplify/simplify.h"
 
+#include <iostream>
 #include <stop_token>
 
 #include <fmt/format.h>
 
+#include "io/file.h"
+#include "tools/checkpoint_file.h"
 #include "tools/cli.h"
 #include "tools/progress_line.h"
 #include "tools/ranking_arguments.h"
 #include "tools/signal_watch.h"
+#include "tools/step_log.h"
 #include "tools/surface_input.h"
 
 namespace hexweft {
@@ -21,6 +25,8 @@ struct Request {
   bool no_chords = false;
   std::optional<double> max_seconds, target_rate;
   std::optional<int> target_components;
+  std::string log, checkpoint, resume;
+  bool profile = false;
 };
 
 void add_options(CLI::App& app, Request& r) {
@@ -41,11 +47,31 @@ void add_options(CLI::App& app, Request& r) {
   app.add_option("--rate", r.target_rate,
                  "Stop at this simplification rate 1 - BC/BC_in, in [0, 1]");
   app.add_option("--components", r.target_components, "Stop at this many components");
-  app.add_option("--seconds", r.max_seconds, "Stop collapsing after this long");
+  app.add_option("--seconds", r.max_seconds,
+                 "Begin nothing more after this long, the smoothing at the end neither");
   app.add_flag("--no-chords", r.no_chords, "Collapse sheets only");
   app.add_option("--features", r.features, cli::kFeaturesHelp)->capture_default_str();
   r.ranking.add_to(app);
   cli::add_filter_options(app, o);
+}
+
+void add_run_options(CLI::App& app, Request& r) {
+  app.add_option("--log", r.log, "Write a line of JSON for every step, as it happens")
+      ->group("Run");
+  app.add_flag("--profile", r.profile,
+               "Say on standard error where the time went and how the trials ended")
+      ->group("Run");
+  app.add_option("--checkpoint", r.checkpoint,
+                 "Keep in this file what --resume needs, now and then and at the end")
+      ->group("Run");
+  app.add_option("--checkpoint-every", r.options.checkpoint_every_s,
+                 "Seconds between two checkpoints, at least")
+      ->capture_default_str()
+      ->group("Run");
+  app.add_option("--resume", r.resume,
+                 "Go on from this checkpoint of a run with the same INPUT and options; those that "
+                 "end a run may be others")
+      ->group("Run");
 }
 
 std::string text_of(const SimplifyProgress& p) {
@@ -53,7 +79,7 @@ std::string text_of(const SimplifyProgress& p) {
                      p.components, p.input_components, 100 * p.hausdorff_ratio, p.seconds);
 }
 
-int run(cli::Program& program, Request& request) {
+void complete_options(Request& request) {
   SimplifyOptions& o = request.options;
   o.ranking = request.ranking.ranking();
   o.weights = request.ranking.weights();
@@ -62,18 +88,80 @@ int run(cli::Program& program, Request& request) {
   o.max_seconds = request.max_seconds;
   o.target_rate = request.target_rate;
   o.target_components = request.target_components;
+  for (const std::string* path : {&request.checkpoint, &request.resume}) {
+    if (*path == "-") throw InputError("--checkpoint or --resume = -, expected a file");
+  }
   validate(o);
+}
+
+// Says once that a file of the run's own is not written any more; the run is worth more than that.
+class Lenient {
+ public:
+  explicit Lenient(const cli::Program& program) : program_(program) {}
+  template <class F>
+  void operator()(F&& write) {
+    if (failed_) return;
+    try {
+      write();
+    } catch (const FormatError& error) {
+      failed_ = true;
+      program_.note(std::string(error.what()) + "; the run goes on without");
+    }
+  }
+
+ private:
+  const cli::Program& program_;
+  bool failed_ = false;
+};
+
+nlohmann::ordered_json last_line(const SimplifyReport& r) {
+  return {{"what", "end"},
+          {"stopped", name(r.stopped)},
+          {"components", r.after.components},
+          {"hexahedra", r.after.hexahedra},
+          {"min_scaled_jacobian", r.after.min_scaled_jacobian},
+          {"mean_scaled_jacobian", r.after.mean_scaled_jacobian},
+          {"hausdorff_ratio", r.hausdorff_ratio},
+          {"seconds", r.seconds}};
+}
+
+SimplifyReport simplify_as_asked(cli::Program& program, Request& request, HexMesh& mesh) {
+  SimplifyOptions& o = request.options;
+  std::optional<Checkpoint> from;
+  if (!request.resume.empty()) from = cli::CheckpointFile(request.resume, mesh, o).read();
+  std::optional<cli::StepLog> log;
+  if (!request.log.empty()) log.emplace(request.log, from.has_value());
+  Lenient write_log(program), write_checkpoint(program);
+  cli::ProgressLine line;
+  if (line.on_terminal() || log) {
+    o.observer = [&](const SimplifyProgress& p) {
+      line.show(text_of(p));
+      if (log) write_log([&] { log->write(to_json(p)); });
+    };
+  }
+  if (!request.checkpoint.empty()) {
+    check_writable(request.checkpoint);
+    const cli::CheckpointFile file(request.checkpoint, mesh, o);
+    o.checkpoint = [&write_checkpoint, file](const HexMesh& now, const RunState& state) {
+      write_checkpoint([&] { file.write(now, state); });
+    };
+  }
+  const SimplifyReport report = from ? resume_simplify(mesh, *from, o) : simplify(mesh, o);
+  if (log) write_log([&] { log->write(last_line(report)); });
+  return report;
+}
+
+int run(cli::Program& program, Request& request) {
+  complete_options(request);
   HexMesh mesh = program.read_mesh();
   std::stop_source interrupt;
   const cli::SignalWatch watch(interrupt);
-  cli::ProgressLine line;
-  o.stop = interrupt.get_token();
-  o.observer = [&line](const SimplifyProgress& p) { line.show(text_of(p)); };
-  const SimplifyReport report = simplify(mesh, o);
-  line.clear();
+  request.options.stop = interrupt.get_token();
+  const SimplifyReport report = simplify_as_asked(program, request, mesh);
   program.write_mesh(mesh);
   program.write_json(report.json());
   program.say(report.brief());
+  if (request.profile) std::cerr << report.profile_table();
   if (report.stopped == StopReason::interrupted)
     program.say("interrupted: this is the mesh so far");
   return cli::kDone;
@@ -93,5 +181,6 @@ int main(int argc, char** argv) {
   program.add_json();
   program.add_threads(request.options.threads);
   add_options(program.app(), request);
+  add_run_options(program.app(), request);
   return program.run(argc, argv, [&] { return run(program, request); });
 }

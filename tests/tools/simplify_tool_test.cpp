@@ -1,4 +1,7 @@
 // hexweft-simplify and hexweft-info as a stranger meets them.
+#include <sstream>
+#include <vector>
+
 #include <nlohmann/json.hpp>
 
 #include "io/hex_mesh_io.h"
@@ -82,6 +85,107 @@ TEST_F(SimplifyTool, InterruptedItWritesAValidMesh) {
   EXPECT_TRUE(is_valid(mesh));
   EXPECT_GT(min_scaled_jacobian(mesh), 0);
   EXPECT_EQ(n_files(), 3);
+}
+
+std::vector<nlohmann::json> lines_of(const std::filesystem::path& log) {
+  std::vector<nlohmann::json> lines;
+  std::istringstream text(read_file(log));
+  for (std::string line; std::getline(text, line);) lines.push_back(nlohmann::json::parse(line));
+  return lines;
+}
+
+TEST_F(SimplifyTool, LogsEveryStepAndItsResultIsTheSame) {
+  ASSERT_EQ(run("hexweft-generate octree-like --resolution 6 -o in.vtk").exit_code, 0);
+  ASSERT_EQ(run("hexweft-simplify in.vtk -o plain.vtk").exit_code, 0);
+  const ToolRun result = run(
+      "hexweft-simplify in.vtk -o out.vtk --log run.log --profile --json report.json --checkpoint "
+      "run.checkpoint --checkpoint-every 0");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(read_file(file("out.vtk")), read_file(file("plain.vtk")));
+  const auto report = nlohmann::json::parse(read_file(file("report.json")));
+  const auto lines = lines_of(file("run.log"));
+  EXPECT_EQ(lines.front()["what"], "start");
+  EXPECT_EQ(lines.front()["components"], report["before"]["components"]);
+  EXPECT_EQ(lines.back()["what"], "end");
+  EXPECT_EQ(lines.back()["stopped"], report["stopped"]);
+  EXPECT_EQ(lines.back()["components"], report["after"]["components"]);
+  int sheets = 0;
+  for (const auto& line : lines) {
+    for (const char* key : {"components", "hexahedra", "min_scaled_jacobian",
+                            "mean_scaled_jacobian", "hausdorff_ratio", "seconds"}) {
+      EXPECT_TRUE(line[key].is_number()) << line;
+    }
+    if (line["what"] != "sheet") continue;
+    ++sheets;
+    for (const char* key :
+         {"step", "kind", "width", "energy", "valence_term", "width_term", "distortion_term"}) {
+      EXPECT_TRUE(line.contains(key)) << line;
+    }
+  }
+  EXPECT_EQ(sheets, report["sheets"]["accepted"]);
+  EXPECT_TRUE(report["profile"]["trial"]["seconds"].is_number());
+  EXPECT_THAT(result.err, testing::HasSubstr("smoothing"));
+  EXPECT_EQ(n_files(), 6);
+}
+
+TEST_F(SimplifyTool, GoesOnFromACheckpoint) {
+  ASSERT_EQ(run("hexweft-generate octree-like --resolution 8 -o in.vtk").exit_code, 0);
+  ASSERT_EQ(
+      run("hexweft-simplify in.vtk -o half.vtk --rate 0.3 --checkpoint c --log run.log").exit_code,
+      0);
+  const std::size_t n_lines = lines_of(file("run.log")).size();
+  const ToolRun result =
+      run("hexweft-simplify in.vtk -o out.vtk --resume c --log run.log "
+          "--json report.json");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto lines = lines_of(file("run.log"));
+  ASSERT_GT(lines.size(), n_lines);
+  EXPECT_EQ(lines[n_lines]["what"], "start");
+  EXPECT_GT(lines[n_lines]["step"], 0);
+  const auto report = nlohmann::json::parse(read_file(file("report.json")));
+  const ToolRun distance = run("hexweft-distance out.vtk in.vtk --json -");
+  EXPECT_LE(nlohmann::json::parse(distance.out)["ratio"], 0.01);
+  EXPECT_GT(report["rate"], 0.3);
+  EXPECT_TRUE(is_valid(read_hex_mesh(file("out.vtk"))));
+  ASSERT_EQ(run("hexweft-simplify in.vtk -o again.vtk --resume c").exit_code, 0);
+  EXPECT_EQ(read_file(file("out.vtk")), read_file(file("again.vtk")));
+}
+
+TEST_F(SimplifyTool, CheckpointThatDoesNotFitIsRefusedInASentence) {
+  ASSERT_EQ(run("hexweft-generate octree-like --resolution 6 -o in.vtk").exit_code, 0);
+  ASSERT_EQ(run("hexweft-generate grid -o grid.vtk").exit_code, 0);
+  ASSERT_EQ(run("hexweft-simplify in.vtk -o out.vtk --checkpoint c").exit_code, 0);
+  const auto refuses = [&](const std::string& arguments, int exit_code, const std::string& why) {
+    SCOPED_TRACE(arguments);
+    const ToolRun result = run("hexweft-simplify " + arguments + " -o new.vtk");
+    EXPECT_EQ(result.exit_code, exit_code);
+    EXPECT_THAT(result.err, IsSentenceOf("hexweft-simplify"));
+    EXPECT_THAT(result.err, testing::HasSubstr(why));
+  };
+  refuses("grid.vtk --resume c", 2, "another input");
+  refuses("in.vtk --resume c --hausdorff 0.005", 2, "hausdorff_limit_rel = 0.01, not 0.005");
+  refuses("in.vtk --resume c --beta 2", 2, "weights.beta");
+  refuses("in.vtk --resume in.vtk", 3, "no checkpoint");
+  refuses("in.vtk --resume none", 3, "none: cannot be read");
+  refuses("in.vtk --resume -", 2, "expected a file");
+  refuses("in.vtk --checkpoint nowhere/c", 3, "nowhere");
+  refuses("in.vtk --log nowhere/log", 3, "nowhere");
+  const std::string whole = read_file(file("c"));
+  for (const double share : {0.0, 0.001, 0.01, 0.5, 0.999}) {
+    write_file(file("d"), whole.substr(0, static_cast<std::size_t>(share * whole.size())));
+    refuses("in.vtk --resume d", 3, "d: is ");
+    std::string flipped = whole;
+    flipped[static_cast<std::size_t>(share * whole.size())] ^= 4;
+    write_file(file("d"), flipped);
+    refuses("in.vtk --resume d", 3, "d: is ");
+  }
+  EXPECT_FALSE(std::filesystem::exists(file("new.vtk")));
+}
+
+TEST_F(SimplifyTool, MeshAtItsSimplestComesBackAsItWas) {
+  ASSERT_EQ(run("hexweft-generate torus -o in.vtk").exit_code, 0);
+  ASSERT_EQ(run("hexweft-simplify in.vtk -o out.vtk").exit_code, 0);
+  EXPECT_EQ(read_file(file("out.vtk")), read_file(file("in.vtk")));
 }
 
 TEST_F(SimplifyTool, RefusesWhatItCannotUse) {
