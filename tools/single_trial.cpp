@@ -84,6 +84,8 @@ std::string explain(Refusal refusal) {
       return "nothing is against it";
     case Refusal::valence:
       return "an edge would have too few or too many hexahedra";
+    case Refusal::angle:
+      return "a single hexahedron would have to fill a wide angle of the boundary";
     case Refusal::boundary:
       return "two different stretches of the boundary would be glued";
     case Refusal::feature:
