@@ -1,4 +1,9 @@
 // What goes on beside the loop: telling, keeping, measuring, ending.
+#include <condition_variable>
+#include <mutex>
+#include <stop_token>
+#include <thread>
+
 #include <fmt/format.h>
 
 #include "optimize/hausdorff.h"
@@ -7,6 +12,20 @@
 #include "simplify/detail/run.h"
 
 namespace hexweft::detail {
+namespace {
+
+// Asks for a stop when the time is over, unless this thread is ended before.
+std::jthread stop_after(double seconds, std::stop_source source) {
+  return std::jthread([seconds, source](const std::stop_token& end) mutable {
+    std::mutex mutex;
+    std::condition_variable_any wait;
+    std::unique_lock lock(mutex);
+    wait.wait_for(lock, end, std::chrono::duration<double>(seconds), [] { return false; });
+    if (!end.stop_requested()) source.request_stop();
+  });
+}
+
+}  // namespace
 
 double Run::seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
@@ -142,10 +161,16 @@ void Run::fall_back() {
 
 void Run::smooth_all() {
   const auto smoothing = timer(Stage::smoothing);
+  std::stop_source cut;
+  const std::stop_callback when_asked(options_.stop, [&cut] { cut.request_stop(); });
+  const std::jthread when_late =
+      options_.max_seconds ? stop_after(*options_.max_seconds - seconds(), cut) : std::jthread();
   const SmoothingOptions options = {.hausdorff_limit_rel = options_.hausdorff_limit_rel,
                                     .local_trials = options_.smoothing_trials,
-                                    .parametrization = options_.parametrization};
+                                    .parametrization = options_.parametrization,
+                                    .stop = cut.get_token()};
   report_.hausdorff_ratio = smooth(mesh_, reference_, options).hausdorff_rel;
+  if (cut.stop_requested()) is_cut_short();  // notes down why
 }
 
 void Run::measure_output(bool smoothed) {

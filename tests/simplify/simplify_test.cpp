@@ -1,6 +1,7 @@
 // The loop on small meshes.
 #include <algorithm>
 #include <numeric>
+#include <thread>
 
 #include <gmock/gmock.h>
 
@@ -228,6 +229,46 @@ TEST(Simplify, StopDuringRefinementEndsIt) {
   expect_good_output(input, mesh, report);
   EXPECT_EQ(report.stopped, StopReason::interrupted);
   EXPECT_LE(report.refined, 1);
+}
+
+// The checkpoint at the end of the loop comes just before the smoothing.
+TEST(Simplify, StopBeforeTheSmoothingLeavesItOut) {
+  const HexMesh input = make_small_sphere();
+  HexMesh mesh = input;
+  std::stop_source source;
+  SimplifyOptions options;
+  options.stop = source.get_token();
+  options.checkpoint_every_s = 1e9;
+  MeshContent at_the_end_of_the_loop;
+  options.checkpoint = [&](const HexMesh& now, const RunState&) {
+    HexMesh compact = now;
+    compact.collect_garbage();
+    at_the_end_of_the_loop = content(compact);
+    source.request_stop();
+  };
+  const SimplifyReport report = simplify(mesh, options);
+  expect_good_output(input, mesh, report);
+  EXPECT_EQ(report.stopped, StopReason::interrupted);
+  EXPECT_EQ(report.profile[Stage::smoothing].entered, 0);
+  EXPECT_TRUE(content(mesh) == at_the_end_of_the_loop);
+}
+
+TEST(Simplify, StopDuringTheSmoothingLeavesAValidMesh) {
+  const HexMesh input = make_small_sphere();
+  HexMesh mesh = input;
+  std::stop_source source;
+  SimplifyOptions options;
+  options.stop = source.get_token();
+  options.checkpoint_every_s = 1e9;
+  std::jthread later;
+  options.checkpoint = [&](const HexMesh&, const RunState&) {
+    later = std::jthread([&source] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      source.request_stop();
+    });
+  };
+  const SimplifyReport report = simplify(mesh, options);
+  expect_good_output(input, mesh, report);
 }
 
 TEST(Simplify, ObserverIsToldOfEveryKindOfStep) {
