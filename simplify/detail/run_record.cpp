@@ -15,8 +15,8 @@ namespace hexweft::detail {
 namespace {
 
 // Asks for a stop when the time is over, unless this thread is ended before.
-std::jthread stop_after(double seconds, std::stop_source source) {
-  return std::jthread([seconds, source](const std::stop_token& end) mutable {
+std::jthread stop_after(double seconds, const std::stop_source& source) {
+  return std::jthread([seconds, source](const std::stop_token& end) {
     std::mutex mutex;
     std::condition_variable_any wait;
     std::unique_lock lock(mutex);
