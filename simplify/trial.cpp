@@ -14,11 +14,26 @@ int euler_of_live(const HexMesh& mesh) {
   return mesh.n_vertices() - mesh.n_edges() + mesh.n_faces() - mesh.n_cells();
 }
 
+// The vertices and those next to them. A merge can make a doublet at a neighbour: two of its edges
+// become one.
+std::vector<VertexHandle> with_neighbors(const HexMesh& mesh, std::span<const VertexHandle> some) {
+  std::vector<VertexHandle> all(some.begin(), some.end());
+  for (VertexHandle v : some) {
+    for (EdgeHandle e : mesh.edges(v)) {
+      const auto [from, to] = mesh.vertices(e);
+      all.push_back(from == v ? to : from);
+    }
+  }
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
 Refusal check_topology_after(const HexMesh& mesh, std::span<const VertexHandle> left, int euler) {
   if (left.empty()) return Refusal::vanishing;
   if (euler_of_live(mesh) != euler) return Refusal::topology;
-  return is_clean(check_topology(mesh, left), Severity::degenerate) ? Refusal::none
-                                                                    : Refusal::topology;
+  const auto violations = check_topology(mesh, with_neighbors(mesh, left));
+  return is_clean(violations, Severity::degenerate) ? Refusal::none : Refusal::topology;
 }
 
 Refusal refusal_of(ParametrizationFailure failure) {

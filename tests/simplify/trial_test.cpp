@@ -14,9 +14,9 @@ namespace {
 
 // A mesh with all that a trial needs.
 struct Bench {
-  explicit Bench(HexMesh m, double limit_rel = 0.01)
+  explicit Bench(HexMesh m, double limit_rel = 0.01, FeatureMode features = FeatureMode::off)
       : mesh(std::move(m)),
-        reference(make_reference_surface(mesh)),
+        reference(make_reference_surface(mesh, 40, {.mode = features})),
         distance(mesh, reference),
         context{mesh, reference, distance, summarize_topology(mesh),
                 limit_rel * reference.bounding_box_diagonal(),
@@ -94,6 +94,19 @@ TEST(Trial, ArmOfAnLIsTooFarFromTheInput) {
     EXPECT_TRUE(DistanceState(b.distance) == distance);
   }
   EXPECT_GT(legal, 0);
+}
+
+TEST(Trial, ArmOfAnLTakesCornersAlong) {
+  Bench b(make_l_shape(2), 1.0, FeatureMode::automatic);
+  int by_feature = 0;
+  for (const Sheet& s : extract_sheets(b.bc)) {
+    const CollapsePlan plan = plan_sheet_collapse(b.mesh, b.bc, s);
+    if (check_plan(b.mesh, b.bc.graph, plan) != Refusal::none) continue;
+    const MeshDump mesh(b.mesh);
+    by_feature += try_collapse(b.context, b.bc, plan, {}).refusal == Refusal::feature;
+    EXPECT_TRUE(MeshDump(b.mesh) == mesh);
+  }
+  EXPECT_EQ(by_feature, 2);
 }
 
 TEST(Trial, WithinAWideLimitAnArmGoes) {
