@@ -45,7 +45,7 @@ class Run {
   void tell_of_output(SimplifyProgress p);
   void tell(SimplifyProgress p);
   void keep_checkpoint(bool now = false);
-  bool within_limit() const;
+  bool may_be_written() const;
   void verify();
   void replace_mesh(const HexMesh& mesh);
   void compact();
@@ -68,7 +68,7 @@ class Run {
   FailureMemory memory_;
   std::vector<EdgeHandle> not_refinable_;  // lowest edges of sheets whose split failed on this mesh
   SimplifyReport report_;
-  HexMesh verified_;  // the last mesh within the limit at full sampling; at first the input
+  HexMesh verified_;  // the last mesh that may be written; at first the input
   int verified_components_ = 0;
   int step_ = 0;             // collapses and splits that the mesh is away from the input
   int failed_in_a_row_ = 0;  // trials that came as far as the geometry, since the last accepted one

@@ -9,6 +9,8 @@
 #include "optimize/hausdorff.h"
 #include "optimize/smooth.h"
 #include "ovm/errors.h"
+#include "ovm/quality.h"
+#include "ovm/topology_check.h"
 #include "simplify/detail/run.h"
 
 namespace hexweft::detail {
@@ -53,7 +55,7 @@ void Run::go_on_from(const Checkpoint& from) {
   report_.refinement_failed = s.refinement_failed;
   earlier_seconds_ = s.seconds;
   earlier_profile_ = s.profile;
-  if (n_collapses() > 0 && within_limit()) {
+  if (n_collapses() > 0 && may_be_written()) {
     verified_ = mesh_;
     verified_components_ = static_cast<int>(bc_.components.size());
   }
@@ -115,14 +117,19 @@ void Run::keep_checkpoint(bool now) {
   last_checkpoint_ = Clock::now();
 }
 
-bool Run::within_limit() const { return is_within(mesh_, reference_, context_.final_limit); }
+// The loop looks where a step has changed something, at few samples; this looks at everything.
+bool Run::may_be_written() const {
+  const TopologySummary t = summarize_topology(mesh_);
+  return is_valid(mesh_) && min_scaled_jacobian(mesh_) > 0 && t.genus == context_.shape.genus &&
+         t.n_parts == context_.shape.n_parts && is_within(mesh_, reference_, context_.final_limit);
+}
 
 // Keeps a copy that is within the limit at full sampling; where this one is not, keeps more
 // distance.
 void Run::verify() {
   const auto verifying = timer(Stage::verification);
   verified_components_ = static_cast<int>(bc_.components.size());
-  if (within_limit()) {
+  if (may_be_written()) {
     verified_ = mesh_;
   } else {
     context_.distance_limit *= 0.95;
@@ -156,7 +163,7 @@ void Run::give_back_input() {
 
 void Run::fall_back() {
   const auto verifying = timer(Stage::verification);
-  if (!within_limit()) mesh_ = verified_;
+  if (!may_be_written()) mesh_ = verified_;
 }
 
 void Run::smooth_all() {
