@@ -40,7 +40,8 @@ std::optional<std::vector<Eigen::Vector3d>> feature_targets(const HexMesh& mesh,
   for (int g = 0; g < plan.n_groups(); ++g) {
     GroupFeature f;
     for (VertexHandle v : plan.group(g)) f.take(labels[v.idx], mesh.point(v));
-    if (f.corner >= 0 && f.line >= 0) f.in_conflict |= !ends_at(curves.features(), f.line, f.corner);
+    if (f.corner >= 0 && f.line >= 0)
+      f.in_conflict |= !ends_at(curves.features(), f.line, f.corner);
     if (f.in_conflict) return std::nullopt;
     if (f.corner >= 0) {
       targets[g] = curves.corner(f.corner);

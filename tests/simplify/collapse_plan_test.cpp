@@ -1,10 +1,9 @@
 // Plans, and what they predict, against the mesh after the collapse.
-#include "simplify/plan_check.h"
-
 #include <set>
 
 #include <gmock/gmock.h>
 
+#include "simplify/plan_check.h"
 #include "tests/mesh_families.h"
 #include "tests/simplify/prediction.h"
 #include "tests/simplify/test_meshes.h"
