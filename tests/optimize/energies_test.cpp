@@ -185,7 +185,8 @@ TEST_P(EveryEnergy, CurvatureModelIsAboutTheSecondDerivativeAtRest) {
     const double model = modelled(GetParam().curvature(d), d, u, g);
     EXPECT_GT(model, 0.9 * second);
     // Where only lengths change, an energy of the angles does not change.
-    if (GetParam().isotropic()) EXPECT_LT(model, 3.1 * second);
+    if (!GetParam().isotropic()) continue;
+    EXPECT_LT(model, 3.1 * second);
   }
 }
 
