@@ -220,4 +220,23 @@ HexMesh make_voxels(const VoxelSet& voxels) {
   return mesh;
 }
 
+void append_copy(HexMesh& mesh, const HexMesh& other, const Vector3d& offset) {
+  // `other` may be `mesh`: what to copy is counted first.
+  const int n_vertices = other.vertex_slots(), n_cells = other.cell_slots();
+  std::vector<VertexHandle> copy(n_vertices);
+  for (VertexHandle v(0); v.idx < n_vertices; ++v.idx) {
+    if (other.is_live(v)) copy[v.idx] = mesh.add_vertex(other.point(v) + offset);
+  }
+  for (CellHandle c(0); c.idx < n_cells; ++c.idx) {
+    if (!other.is_live(c)) continue;
+    CellVertices corners = other.vertices(c);
+    for (VertexHandle& v : corners) v = copy[v.idx];
+    mesh.add_cell(corners);
+  }
+}
+
+void transform(HexMesh& mesh, const Eigen::Affine3d& map) {
+  for (VertexHandle v : mesh.vertices()) mesh.set_point(v, map * mesh.point(v));
+}
+
 }  // namespace hexweft

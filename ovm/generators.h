@@ -14,6 +14,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "ovm/generators_solids.h"
 #include "ovm/hex_mesh.h"
 
 namespace hexweft {
@@ -72,10 +73,20 @@ std::string_view name(Shape shape);
 /// Negative inside. The seed bends the blob; the other shapes ignore it.
 double signed_distance_like(Shape shape, const Eigen::Vector3d& p, unsigned seed);
 
-/// What octree meshers give: the voxels inside the shape with a layer of cells under their
+Solid solid_of(Shape shape, unsigned seed = 0);
+
+struct OctreeLikeOptions {
+  int resolution = 16;  ///< >= 6, voxels along the longest side
+  /// >= 1, cells along a side of a voxel. Many in few voxels are like what polycube meshers give:
+  /// large blocks, singular edges along the steps between them.
+  int cells_per_voxel = 1;
+};
+
+/// What octree meshers give: the voxels inside the solid with a layer of cells under their
 /// boundary, drawn onto the surface and smoothed as far as every cell stays valid. It has many
-/// singular edges that nothing needs.
-/// \param resolution  voxels along the longest side, >= 6
+/// singular edges that nothing needs. Voxels that touch along an edge or at a point are filled up
+/// round it, so that thin gaps may close at a low resolution.
+HexMesh make_octree_like(const Solid& solid, const OctreeLikeOptions& options = {});
 HexMesh make_octree_like(Shape shape, int resolution, unsigned seed = 0);
 
 /// Inserts up to n sheets round random ball-like sets of cells (radius 1 to 3 cells); a sheet that
@@ -83,5 +94,11 @@ HexMesh make_octree_like(Shape shape, int resolution, unsigned seed = 0);
 /// tried.
 /// \return how many were inserted
 int insert_random_sheets(HexMesh& mesh, int n, unsigned seed);
+
+/// Adds a copy of all of `other`, moved by `offset`; nothing is glued.
+void append_copy(HexMesh& mesh, const HexMesh& other, const Eigen::Vector3d& offset);
+
+/// Moves every vertex. A map that mirrors turns the cells inside out.
+void transform(HexMesh& mesh, const Eigen::Affine3d& map);
 
 }  // namespace hexweft

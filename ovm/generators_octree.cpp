@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-#include "ovm/detail/guarded_smoothing.h"
+#include "ovm/detail/fit_to_solid.h"
 #include "ovm/edit/insert_sheet.h"
 #include "ovm/errors.h"
 #include "ovm/generators.h"
@@ -117,77 +117,11 @@ bool fill_block(VoxelSet& voxels, int x, int y, int z) {
   return changed;
 }
 
-// ---- Drawing the boundary onto the surface ----
-
-class SurfaceFitter {
- public:
-  SurfaceFitter(HexMesh& mesh, Shape shape, unsigned seed)
-      : mesh_(mesh), shape_(shape), seed_(seed), on_boundary_(mesh.vertex_slots(), 0) {
-    for (VertexHandle v : mesh.vertices()) on_boundary_[v.idx] = mesh.is_boundary(v);
-    edge_on_boundary_.resize(mesh.edge_slots());
-    for (EdgeHandle e : mesh.edges()) edge_on_boundary_[e.idx] = mesh.is_boundary(e);
-  }
-
-  void sweep(double floor) {
-    for (VertexHandle v : mesh_.vertices()) {
-      const bool boundary = on_boundary_[v.idx];
-      const Vector3d mean = detail::mean_of_neighbors(
-          mesh_, v, [&](EdgeHandle e) { return !boundary || edge_on_boundary_[e.idx]; });
-      if (!boundary) {
-        detail::move_guarded(mesh_, v, mean, floor);
-        continue;
-      }
-      const Vector3d target = project((mean + mesh_.point(v)) / 2);
-      // Where smoothing is refused, at least draw the vertex to the surface.
-      if (detail::move_guarded(mesh_, v, target, floor) < 1) {
-        detail::move_guarded(mesh_, v, project(mesh_.point(v)), floor);
-      }
-    }
-  }
-
-  // Frees vertices that no mean moves: the best of some steps of about this length.
-  void search(double length) {
-    for (VertexHandle v : mesh_.vertices()) {
-      double best = detail::min_scaled_jacobian_round(mesh_, v);
-      if (best > 0.2) continue;
-      const Vector3d from = mesh_.point(v);
-      Vector3d to = from;
-      for (int i = 0; i < 54; ++i) {
-        const Vector3d direction(i % 3 - 1, i / 3 % 3 - 1, i / 9 % 3 - 1);
-        const Vector3d p = from + (i < 27 ? length : length / 4) * direction;
-        mesh_.set_point(v, on_boundary_[v.idx] ? project(p) : p);
-        const double least = detail::min_scaled_jacobian_round(mesh_, v);
-        if (least <= best) continue;
-        best = least;
-        to = mesh_.point(v);
-      }
-      mesh_.set_point(v, to);
-    }
-  }
-
- private:
-  Vector3d project(Vector3d p) const {
-    for (int i = 0; i < 8; ++i) {
-      const double f = signed_distance_like(shape_, p, seed_);
-      Vector3d gradient;
-      for (int a = 0; a < 3; ++a) {
-        constexpr double h = 1e-5;
-        const Vector3d d = h * Vector3d::Unit(a);
-        gradient[a] = (signed_distance_like(shape_, p + d, seed_) -
-                       signed_distance_like(shape_, p - d, seed_)) /
-                      (2 * h);
-      }
-      if (std::abs(f) < 1e-9 || gradient.squaredNorm() < 1e-6) break;
-      p -= f / gradient.squaredNorm() * gradient;
-    }
-    return p;
-  }
-
-  HexMesh& mesh_;
-  Shape shape_;
-  unsigned seed_;
-  std::vector<char> on_boundary_, edge_on_boundary_;
-};
+VoxelSet subdivided(const VoxelSet& coarse, int k) {
+  const auto& n = coarse.size;
+  return VoxelSet({k * n[0], k * n[1], k * n[2]},
+                  [&](int x, int y, int z) { return coarse(x / k, y / k, z / k); });
+}
 
 }  // namespace
 
@@ -244,31 +178,42 @@ void fill_to_manifold(VoxelSet& voxels) {
   }
 }
 
-HexMesh make_octree_like(Shape shape, int resolution, unsigned seed) {
-  if (resolution < 6) throw InputError("an octree-like mesh needs a resolution of at least 6");
+Solid solid_of(Shape shape, unsigned seed) {
   const Vector3d half = half_extent(shape);
-  const double h = 2 * half.maxCoeff() / resolution;
+  return {[=](const Vector3d& p) { return signed_distance_like(shape, p, seed); },
+          Eigen::AlignedBox3d(Vector3d(-half), half), false};
+}
+
+HexMesh make_octree_like(const Solid& solid, const OctreeLikeOptions& options) {
+  if (options.resolution < 6) {
+    throw InputError("an octree-like mesh needs a resolution of at least 6");
+  }
+  if (options.cells_per_voxel < 1) throw InputError("a voxel needs at least one cell a side");
+  const Vector3d sides = solid.box.sizes();
+  const double h = sides.maxCoeff() / options.resolution;
   std::array<int, 3> n;
-  for (int a = 0; a < 3; ++a) n[a] = static_cast<int>(std::ceil(2 * half[a] / h - 1e-9));
-  const Vector3d low = -0.5 * h * Vector3d(n[0], n[1], n[2]);
+  for (int a = 0; a < 3; ++a) n[a] = std::max(1, static_cast<int>(std::ceil(sides[a] / h - 1e-9)));
+  const Vector3d low = solid.box.center() - 0.5 * h * Vector3d(n[0], n[1], n[2]);
   VoxelSet voxels(n, [&](int x, int y, int z) {
-    return signed_distance_like(shape, low + h * Vector3d(x + 0.5, y + 0.5, z + 0.5), seed) < 0;
+    return solid.distance(low + h * Vector3d(x + 0.5, y + 0.5, z + 0.5)) < 0;
   });
   fill_to_manifold(voxels);
-  HexMesh mesh = make_voxels(voxels);
-  for (VertexHandle v : mesh.vertices()) mesh.set_point(v, low + h * mesh.point(v));
+  const int k = options.cells_per_voxel;
+  HexMesh mesh = make_voxels(k == 1 ? voxels : subdivided(voxels, k));
+  if (mesh.n_cells() == 0) throw InputError("the resolution is too low to show any of the solid");
+  const double edge_length = h / k;
+  for (VertexHandle v : mesh.vertices()) mesh.set_point(v, low + edge_length * mesh.point(v));
 
   std::vector<CellHandle> all;
   for (CellHandle c : mesh.cells()) all.push_back(c);
   insert_sheet(mesh, all, {.depth_rel = 0.6, .include_boundary = true});
   mesh.collect_garbage();
-
-  SurfaceFitter fitter(mesh, shape, seed);
-  for (double floor : {0.2, 0.2, 0.2, 0.2, 0.1, 0.1, 0.05, 0.05, 0.1, 0.1, 0.2, 0.2, 0.3, 0.3}) {
-    fitter.sweep(floor);
-    fitter.search(0.3 * h);
-  }
+  detail::fit_to_solid(mesh, solid, edge_length);
   return mesh;
+}
+
+HexMesh make_octree_like(Shape shape, int resolution, unsigned seed) {
+  return make_octree_like(solid_of(shape, seed), {.resolution = resolution});
 }
 
 }  // namespace hexweft
