@@ -157,7 +157,8 @@ HexMesh make_o_grid(const OGridOptions& o) {
 }
 
 HexMesh make_torus(const TorusOptions& o) {
-  require(o.n_core > 0 && o.n_ring > 0 && o.n_around > 2, "a torus needs positive counts of cells");
+  require(o.n_core > 0 && o.n_ring > 0, "a torus needs positive counts of cells");
+  require(o.n_around > 2, "a torus needs at least 3 cells around");
   require(o.minor_radius > 0 && o.major_radius > o.minor_radius,
           "a torus needs a major radius above its positive minor radius");
   const Section section = o.round_section ? round_section(o.n_core, o.n_ring, o.minor_radius)

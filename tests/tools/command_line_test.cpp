@@ -41,7 +41,16 @@ TEST_F(CommandLine, WrongUsageIsExitCode2AndOneSentence) {
                                       "grid -o x.vtk --format stl",
                                       "grid -o - --json -",
                                       "octree-like -o x.vtk --shape cow",
-                                      "octree-like -o x.vtk --resolution 3"}) {
+                                      "octree-like -o x.vtk --resolution 3",
+                                      "octree-like -o x.vtk --holes -1",
+                                      "octree-like -o x.vtk --cells-per-voxel 0",
+                                      "torus -o x.vtk --layers 2",
+                                      "grid -o x.vtk --layers 0",
+                                      "grid -o x.vtk --scale 0",
+                                      "grid -o x.vtk --scale -1",
+                                      "grid -o x.vtk --offset 1 2",
+                                      "grid -o x.vtk --offset 1 2 inf",
+                                      "grid -o x.vtk --copies 0"}) {
     SCOPED_TRACE(arguments);
     const ToolRun result = run("hexweft-generate " + arguments);
     EXPECT_EQ(result.exit_code, 2);
@@ -90,8 +99,10 @@ TEST_F(CommandLine, ConversionThereAndBackIsExact) {
 }
 
 TEST_F(CommandLine, EveryKindIsMadeTheSameTwice) {
-  for (const std::string kind : {"grid", "o-grid", "torus", "torus --square", "l-shape",
-                                 "octree-like --shape blob --resolution 8"}) {
+  for (const std::string kind :
+       {"grid --layers 2", "o-grid", "torus", "torus --square --rotate", "l-shape",
+        "octree-like --shape blob --resolution 8",
+        "octree-like --shape bored-cylinder --resolution 10 --oblique --copies 2"}) {
     SCOPED_TRACE(kind);
     const std::string arguments = kind + " --sheets 2 --seed 7 ";
     const ToolRun first = run("hexweft-generate " + arguments + "-o a.vtk");
@@ -101,6 +112,25 @@ TEST_F(CommandLine, EveryKindIsMadeTheSameTwice) {
     EXPECT_EQ(read_file(file("a.vtk")), read_file(file("b.vtk")));
     EXPECT_GT(read_hex_mesh(file("a.vtk")).n_cells(), 0);
   }
+}
+
+TEST_F(CommandLine, AMeshIsScaledThenMoved) {
+  EXPECT_EQ(run("hexweft-generate grid --resolution 1 --copies 3 --scale 2 --offset 10 -20 30 "
+                "-o a.vtk")
+                .exit_code,
+            0);
+  const HexMesh mesh = read_hex_mesh(file("a.vtk"));
+  EXPECT_EQ(mesh.n_cells(), 3);
+  EXPECT_EQ(mesh.point(VertexHandle(0)), Eigen::Vector3d(10, -20, 30));
+  EXPECT_EQ(mesh.point(VertexHandle(7)), Eigen::Vector3d(12, -18, 32));
+  EXPECT_EQ(mesh.point(VertexHandle(16)), Eigen::Vector3d(15, -20, 30));
+}
+
+TEST_F(CommandLine, AnOctreeLikePlateHasAsManyHolesAsAskedFor) {
+  const ToolRun chain =
+      run("hexweft-generate octree-like --shape plate-with-holes --holes 3 --resolution 24 -o - "
+          "2>/dev/null | hexweft-info - --json -");
+  EXPECT_EQ(nlohmann::json::parse(chain.out).at("genus"), 3);
 }
 
 TEST_F(CommandLine, AResultHasStandardOutputForItself) {
