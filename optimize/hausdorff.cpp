@@ -1,58 +1,17 @@
 #include "optimize/hausdorff.h"
 
 #include <algorithm>
-#include <cmath>
 #include <future>
 #include <string>
 
 #include <Eigen/Geometry>
 
+#include "optimize/farthest_sample.h"
 #include "ovm/errors.h"
 #include "ovm/hex_mesh.h"
 
 namespace hexweft {
 namespace {
-
-/// Looks for the sample farthest from a surface.
-class FarthestSample {
- public:
-  FarthestSample(const ReferenceSurface& to, const HausdorffOptions& options)
-      : to_(to), farthest_(options.at_least), enough_(options.enough) {}
-
-  bool done() const { return farthest_ > enough_; }
-
-  double look_at(const Eigen::Vector3d& p) {
-    const SurfacePoint s = to_.closest(p, near_);
-    near_ = s.triangle;
-    farthest_ = std::max(farthest_, s.distance);
-    return s.distance;
-  }
-
-  /// Samples a triangle and its `levels` subdivisions into four. The distance changes by no more
-  /// than one moves, so a part whose centroid is close enough needs no closer look.
-  void look_at(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
-               int levels) {
-    const Eigen::Vector3d centroid = (a + b + c) / 3;
-    const double reach =
-        std::sqrt(std::max({(a - centroid).squaredNorm(), (b - centroid).squaredNorm(),
-                            (c - centroid).squaredNorm()}));
-    const double d = look_at(centroid);
-    if (levels == 0 || d + reach <= farthest_ || done()) return;
-    const Eigen::Vector3d ab = (a + b) / 2, bc = (b + c) / 2, ca = (c + a) / 2;
-    for (const Eigen::Vector3d* p : {&a, &b, &c, &ab, &bc, &ca}) look_at(*p);
-    look_at(ab, bc, ca, levels - 1);
-    look_at(a, ab, ca, levels - 1);
-    look_at(ab, b, bc, levels - 1);
-    look_at(ca, bc, c, levels - 1);
-  }
-
-  double distance() const { return farthest_; }
-
- private:
-  const ReferenceSurface& to_;
-  double farthest_, enough_;
-  int near_ = -1;  // where the last sample was closest
-};
 
 void check(const HausdorffOptions& o) {
   if (o.points_per_triangle <= 0) {
@@ -103,7 +62,14 @@ double one_sided_distance(const ReferenceSurface& from, const ReferenceSurface& 
           ? options.points_per_surface
           : static_cast<double>(options.points_per_triangle) *
                 static_cast<double>(std::max(triangles.size(), to.triangles().size()));
-  FarthestSample farthest(to, options);
+  int near = -1;
+  FarthestSample farthest(
+      [&](const Eigen::Vector3d& p) {
+        const SurfacePoint s = to.closest(p, near);
+        near = s.triangle;
+        return s.distance;
+      },
+      options.at_least, options.enough);
   for (const auto& t : triangles) {
     if (farthest.done()) break;
     const double share = area > 0 ? wanted * area_of(t) / area : 0;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <map>
 #include <unordered_map>
 #include <utility>
 
@@ -87,12 +87,16 @@ void SurfaceDistance::make_samples(int levels) {
   const auto& points = reference_.points();
   const auto add = [&](const Eigen::Vector3d& p) { samples_.push_back({p, 0, -1}); };
   for (Eigen::Index v = 0; v < points.cols(); ++v) add(points.col(v));
-  std::set<std::pair<int, int>> edges;
+  std::map<std::pair<int, int>, int> edges;
   for (const auto& t : reference_.triangles()) {
+    TriangleSamples& own = samples_of_triangle_.emplace_back();
     for (int i = 0; i < 3; ++i) {
-      const auto edge = std::minmax(t[i], t[(i + 1) % 3]);
-      if (edges.insert(edge).second) add((points.col(edge.first) + points.col(edge.second)) / 2);
+      const auto [a, b] = std::minmax(t[i], t[(i + 1) % 3]);
+      const auto [edge, fresh] = edges.try_emplace({a, b}, static_cast<int>(samples_.size()));
+      if (fresh) add((points.col(a) + points.col(b)) / 2);
+      own.edges[i] = edge->second;
     }
+    own.first_centroid = static_cast<int>(samples_.size());
     const Eigen::Vector3d a = points.col(t[0]), b = points.col(t[1]), c = points.col(t[2]);
     add_samples(a, b, c, levels + levels_for(a, b, c));
   }

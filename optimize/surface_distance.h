@@ -9,6 +9,7 @@
 ///     else distance.rollback();
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -54,6 +55,9 @@ class SurfaceDistance {
   /// The same where only sides of these cells, alive or deleted, can have changed.
   double after_change(const HexMesh& mesh, std::span<const CellHandle> touched,
                       double limit = std::numeric_limits<double>::infinity());
+  /// Whether what changed since the last commit() stays within `limit` (model units) also between the
+  /// samples of the options: looks as closely as is_within() (hausdorff.h), at the changed part only.
+  bool change_is_within(double limit);
   void commit();    ///< \throws InputError after a change that was given up
   void rollback();  ///< to the last commit; the mesh must be rolled back by its transaction
 
@@ -77,6 +81,13 @@ class SurfaceDistance {
   };
   class VertexAndEdgeCache;
 
+  /// Where a triangle of the reference has its samples, beside those of its corners.
+  struct TriangleSamples {
+    std::array<int, 3> edges;
+    int first_centroid;
+  };
+
+  bool changed_triangles_are_within(double limit);
   void make_samples(int levels);
   void add_samples(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
                    int levels);
@@ -93,7 +104,9 @@ class SurfaceDistance {
   ReferenceSurface reference_;
   SurfaceDistanceOptions options_;
   double mean_area_;  // of the reference's triangles, model units²
-  std::vector<Sample> samples_;
+  std::vector<Sample>
+      samples_;  // of the vertices, then of the edges and parts of triangle after triangle
+  std::vector<TriangleSamples> samples_of_triangle_;
   QuadGrid grid_;                // boundary sides by half-face
   std::vector<double> forward_;  // by half-face; 0 where not on the boundary
   std::vector<SideUndo> side_undo_;

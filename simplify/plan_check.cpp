@@ -11,35 +11,42 @@
 namespace hexweft {
 namespace {
 
-// group_of[v]: the group of each vertex, -1 for those of none.
-std::vector<int> groups_of_vertices(const HexMesh& mesh, const CollapsePlan& plan) {
-  std::vector<int> group_of(mesh.vertex_slots(), -1);
-  for (int g = 0; g < plan.n_groups(); ++g) {
-    for (VertexHandle v : plan.group(g)) group_of[v.idx] = g;
+// What becomes of the vertices and cells of a plan.
+struct Merging {
+  Merging(const HexMesh& mesh, const CollapsePlan& p)
+      : plan(p), group_of(mesh.vertex_slots(), -1), removed(mesh.cell_slots(), 0) {
+    for (int g = 0; g < plan.n_groups(); ++g) {
+      for (VertexHandle v : plan.group(g)) group_of[v.idx] = g;
+    }
+    for (CellHandle c : plan.removed) removed[c.idx] = 1;
   }
-  return group_of;
-}
+  VertexHandle stand_in(VertexHandle v) const {
+    const int g = group_of[v.idx];
+    return g < 0 ? v : plan.members[plan.group_begin[g]];
+  }
 
-bool is_removed(const CollapsePlan& plan, CellHandle c) {
-  return std::binary_search(plan.removed.begin(), plan.removed.end(), c);
-}
+  const CollapsePlan& plan;
+  std::vector<int> group_of;  // by vertex, -1 for those of none
+  std::vector<char> removed;  // by cell
+};
 
 // A cell that stays must not have two vertices of one group.
-bool degenerates_a_cell(const HexMesh& mesh, const CollapsePlan& plan,
-                        const std::vector<int>& group_of) {
-  for (VertexHandle v : plan.members) {
+bool degenerates_a_cell(const HexMesh& mesh, const Merging& m) {
+  for (VertexHandle v : m.plan.members) {
     for (CellHandle c : mesh.cells(v)) {
+      if (m.removed[c.idx]) continue;
       int of_this_group = 0;
-      for (VertexHandle w : mesh.vertices(c)) of_this_group += group_of[w.idx] == group_of[v.idx];
-      if (of_this_group > 1 && !is_removed(plan, c)) return true;
+      for (VertexHandle w : mesh.vertices(c))
+        of_this_group += m.group_of[w.idx] == m.group_of[v.idx];
+      if (of_this_group > 1) return true;
     }
   }
   return false;
 }
 
 // The boundary vertices of a group must hang together through boundary sides that go away.
-bool glues_boundary(const HexMesh& mesh, const SingularityGraph& graph, const CollapsePlan& plan,
-                    const std::vector<int>& group_of) {
+bool glues_boundary(const HexMesh& mesh, const SingularityGraph& graph, const Merging& m) {
+  const CollapsePlan& plan = m.plan;
   std::vector<int> position(mesh.vertex_slots(), -1);
   for (std::size_t i = 0; i < plan.members.size(); ++i)
     position[plan.members[i].idx] = static_cast<int>(i);
@@ -51,7 +58,8 @@ bool glues_boundary(const HexMesh& mesh, const SingularityGraph& graph, const Co
       for (int i = 0; i < 4; ++i) {
         for (int j = 0; j < i; ++j) {
           const int a = position[quad[i].idx], b = position[quad[j].idx];
-          if (a >= 0 && b >= 0 && group_of[quad[i].idx] == group_of[quad[j].idx]) linked.join(a, b);
+          if (a >= 0 && b >= 0 && m.group_of[quad[i].idx] == m.group_of[quad[j].idx])
+            linked.join(a, b);
         }
       }
     }
@@ -67,50 +75,57 @@ bool glues_boundary(const HexMesh& mesh, const SingularityGraph& graph, const Co
   return false;
 }
 
-std::vector<PredictedEdge> predict(const HexMesh& mesh, const SingularityGraph& graph,
-                                   const CollapsePlan& plan, const std::vector<int>& group_of) {
-  const auto stand_in = [&](VertexHandle v) {
-    return group_of[v.idx] < 0 ? v : plan.members[plan.group_begin[group_of[v.idx]]];
-  };
-  std::vector<PredictedEdge> edges;
-  for (VertexHandle v : plan.members) {
-    for (EdgeHandle e : mesh.edges(v)) {
-      const auto ends = mesh.vertices(e);
-      VertexHandle a = stand_in(ends[0]), b = stand_in(ends[1]);
-      // An edge inside a group goes away; one between two groups is seen from its first end only.
-      if (a == b || (v == ends[1] && group_of[ends[0].idx] >= 0)) continue;
-      if (b < a) std::swap(a, b);
-      int surviving = 0;
-      CellHandle cell;
-      for (CellHandle c : mesh.cells(e)) {
-        if (is_removed(plan, c)) continue;
-        ++surviving;
-        cell = c;
+// Edge e as it will be on its own, between a and b.
+PredictedEdge survivor(const HexMesh& mesh, const SingularityGraph& graph, const Merging& m,
+                       EdgeHandle e, VertexHandle a, VertexHandle b) {
+  int surviving = 0;
+  CellHandle cell;
+  for (CellHandle c : mesh.cells(e)) {
+    if (m.removed[c.idx]) continue;
+    ++surviving;
+    cell = c;
+  }
+  const int valence = graph.edge_valence[e.idx];
+  const int error = std::abs(valence - graph.regular_valence(e));
+  return {a, b, surviving, graph.boundary_edge[e.idx] != 0, 1, error, valence, cell};
+}
+
+void take_up(PredictedEdge& merged, const PredictedEdge& e) {
+  merged.valence += e.valence;
+  merged.boundary |= e.boundary;
+  merged.merged += 1;
+  if (e.cell.valid()) merged.cell = e.cell;
+  merged.old_least = std::min(merged.old_least, e.old_least);
+  merged.old_error = std::max(merged.old_error, e.old_error);
+}
+
+// Calls `take` with the edges there will be at each group, until it returns false. One between two
+// groups is seen from the earlier group only. \return whether it never did
+template <class Take>
+bool for_each_predicted(const HexMesh& mesh, const SingularityGraph& graph, const Merging& m,
+                        Take&& take) {
+  std::vector<std::pair<VertexHandle, EdgeHandle>> around;  // by the stand-in of the other end
+  for (int g = 0; g < m.plan.n_groups(); ++g) {
+    around.clear();
+    for (VertexHandle v : m.plan.group(g)) {
+      for (EdgeHandle e : mesh.edges(v)) {
+        const VertexHandle w = mesh.other_end(e, v);
+        const int other = m.group_of[w.idx];
+        if (other < 0 || other > g) around.emplace_back(m.stand_in(w), e);
       }
-      const int valence = graph.edge_valence[e.idx];
-      const int error = std::abs(valence - graph.regular_valence(e));
-      edges.push_back({a, b, surviving, graph.boundary_edge[e.idx] != 0, 1, error, valence, cell});
+    }
+    std::sort(around.begin(), around.end());
+    const VertexHandle here = m.plan.group(g)[0];
+    for (std::size_t i = 0; i < around.size();) {
+      const auto [a, b] = std::minmax(here, around[i].first);
+      PredictedEdge merged = survivor(mesh, graph, m, around[i].second, a, b);
+      for (++i; i < around.size() && around[i].first == around[i - 1].first; ++i) {
+        take_up(merged, survivor(mesh, graph, m, around[i].second, a, b));
+      }
+      if (!take(merged)) return false;
     }
   }
-  std::sort(edges.begin(), edges.end(), [](const PredictedEdge& x, const PredictedEdge& y) {
-    return std::pair(x.a, x.b) < std::pair(y.a, y.b);
-  });
-  std::size_t n = 0;
-  for (const PredictedEdge& e : edges) {
-    if (n > 0 && edges[n - 1].a == e.a && edges[n - 1].b == e.b) {
-      PredictedEdge& merged = edges[n - 1];
-      merged.valence += e.valence;
-      merged.boundary |= e.boundary;
-      merged.merged += 1;
-      if (e.cell.valid()) merged.cell = e.cell;
-      merged.old_least = std::min(merged.old_least, e.old_least);
-      merged.old_error = std::max(merged.old_error, e.old_error);
-    } else {
-      edges[n++] = e;
-    }
-  }
-  edges.resize(n);
-  return edges;
+  return true;
 }
 
 bool within(const PredictedEdge& e, const ValenceLimits& limits) {
@@ -122,16 +137,16 @@ bool within(const PredictedEdge& e, const ValenceLimits& limits) {
 
 // Interior angle between the two sides of a cell at an edge, with the merged vertices in their new
 // places, degrees.
-double angle_at(const HexMesh& mesh, const PredictedEdge& e, const std::vector<int>& group_of,
-                const CollapsePlan& plan, const std::vector<Eigen::Vector3d>& targets) {
+double angle_at(const HexMesh& mesh, const PredictedEdge& e, const Merging& m,
+                const std::vector<Eigen::Vector3d>& targets) {
   Eigen::Vector3d normals[2], middles[2];
   int n = 0;
   for (HalfFaceHandle side : mesh.halffaces(e.cell)) {
     Eigen::Vector3d p[4];
     int at_ends = 0, i = 0;
     for (VertexHandle v : mesh.vertices(side)) {
-      const int g = group_of[v.idx];
-      const VertexHandle stand_in = g < 0 ? v : plan.group(g)[0];
+      const int g = m.group_of[v.idx];
+      const VertexHandle stand_in = m.stand_in(v);
       at_ends += stand_in == e.a || stand_in == e.b;
       p[i++] = g < 0 ? mesh.point(v) : targets[g];
     }
@@ -145,16 +160,12 @@ double angle_at(const HexMesh& mesh, const PredictedEdge& e, const std::vector<i
 }
 
 // A cell alone at a boundary edge fills the whole angle there: on a smooth surface it is flat.
-bool opens_too_wide(const HexMesh& mesh, const SingularityGraph& graph, const CollapsePlan& plan,
-                    const std::vector<int>& group_of, const std::vector<PredictedEdge>& edges,
-                    double max_angle_deg) {
-  const auto newly_alone = [](const PredictedEdge& e) {
-    return e.boundary && e.valence == 1 && e.old_least > 1;
-  };
-  if (max_angle_deg >= 360 || std::none_of(edges.begin(), edges.end(), newly_alone)) return false;
-  const std::vector<Eigen::Vector3d> targets = default_targets(mesh, graph, plan);
-  return std::any_of(edges.begin(), edges.end(), [&](const PredictedEdge& e) {
-    return newly_alone(e) && angle_at(mesh, e, group_of, plan, targets) > max_angle_deg;
+bool opens_too_wide(const HexMesh& mesh, const SingularityGraph& graph, const Merging& m,
+                    const std::vector<PredictedEdge>& newly_alone, double max_angle_deg) {
+  if (newly_alone.empty()) return false;
+  const std::vector<Eigen::Vector3d> targets = default_targets(mesh, graph, m.plan);
+  return std::any_of(newly_alone.begin(), newly_alone.end(), [&](const PredictedEdge& e) {
+    return angle_at(mesh, e, m, targets) > max_angle_deg;
   });
 }
 
@@ -162,7 +173,12 @@ bool opens_too_wide(const HexMesh& mesh, const SingularityGraph& graph, const Co
 
 std::vector<PredictedEdge> predict_edges(const HexMesh& mesh, const SingularityGraph& graph,
                                          const CollapsePlan& plan) {
-  return predict(mesh, graph, plan, groups_of_vertices(mesh, plan));
+  std::vector<PredictedEdge> edges;
+  for_each_predicted(mesh, graph, Merging(mesh, plan), [&](const PredictedEdge& e) {
+    edges.push_back(e);
+    return true;
+  });
+  return edges;
 }
 
 Refusal check_plan(const HexMesh& mesh, const SingularityGraph& graph, const CollapsePlan& plan,
@@ -170,16 +186,24 @@ Refusal check_plan(const HexMesh& mesh, const SingularityGraph& graph, const Col
   if (plan.removed.empty() || static_cast<int>(plan.removed.size()) == mesh.n_cells()) {
     return Refusal::vanishing;
   }
-  const std::vector<int> group_of = groups_of_vertices(mesh, plan);
-  const std::vector<PredictedEdge> edges = predict(mesh, graph, plan, group_of);
-  for (const PredictedEdge& e : edges) {
-    if (e.valence == 0) return Refusal::vanishing;
-    if (!within(e, limits)) return Refusal::valence;
-  }
-  if (opens_too_wide(mesh, graph, plan, group_of, edges, limits.max_angle_deg))
+  const Merging merging(mesh, plan);
+  std::vector<PredictedEdge> newly_alone;
+  Refusal refusal = Refusal::none;
+  const auto fits = [&](const PredictedEdge& e) {
+    if (e.valence == 0) {
+      refusal = Refusal::vanishing;
+    } else if (!within(e, limits)) {
+      refusal = Refusal::valence;
+    }
+    if (e.boundary && e.valence == 1 && e.old_least > 1) newly_alone.push_back(e);
+    return refusal == Refusal::none;
+  };
+  if (!for_each_predicted(mesh, graph, merging, fits)) return refusal;
+  if (limits.max_angle_deg < 360 &&
+      opens_too_wide(mesh, graph, merging, newly_alone, limits.max_angle_deg))
     return Refusal::angle;
-  if (degenerates_a_cell(mesh, plan, group_of)) return Refusal::degenerate_cell;
-  if (glues_boundary(mesh, graph, plan, group_of)) return Refusal::boundary;
+  if (degenerates_a_cell(mesh, merging)) return Refusal::degenerate_cell;
+  if (glues_boundary(mesh, graph, merging)) return Refusal::boundary;
   return Refusal::none;
 }
 

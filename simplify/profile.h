@@ -20,16 +20,21 @@ namespace hexweft {
 
 enum class Stage {
   other,
-  preparation,   ///< the reference surface and the figures of the input
-  base_complex,  ///< where it is extracted anew
-  ranking,       ///< sheets and chords, their terms and cheap filters
-  planning,      ///< which vertices a candidate would merge
-  trial,         ///< edit, parametrization and checks of a collapse
-  relief,        ///< relaxing round the place farthest from the surface
-  refinement,    ///< splitting sheets
-  verification,  ///< distance at full sampling, figures of the output
-  smoothing,     ///< of the whole mesh at the end
-  reporting      ///< observer and checkpoints
+  preparation,      ///< the reference surface and the figures of the input
+  base_complex,     ///< where it is extracted anew
+  ranking,          ///< sheets and chords, their terms and cheap filters
+  planning,         ///< which vertices a candidate would merge
+  trial,            ///< the rest of the trial of a collapse: edit, roll back
+  plan_check,       ///< of a trial: predicted valences and angles
+  structure,        ///< of a trial: shape and base complex of the new mesh
+  parametrization,  ///< of a trial
+  distance,         ///< of trials and splits: to the surface, where it changed
+  full_distance,    ///< of trials and splits close to the limit: at full sampling
+  relief,           ///< relaxing round the place farthest from the surface
+  refinement,       ///< splitting sheets
+  verification,     ///< distance at full sampling, figures of the output
+  smoothing,        ///< of the whole mesh at the end
+  reporting         ///< observer and checkpoints
 };
 inline constexpr int kStages = static_cast<int>(Stage::reporting) + 1;
 std::string_view name(Stage stage);

@@ -99,11 +99,7 @@ bool try_refine(TrialContext& context, const DualSheet& sheet, const SimplifyOpt
     // The split alone leaves the surface as it is, but for warped sides.
     std::vector<CellHandle> touched = around;
     touched.insert(touched.end(), split.removed.begin(), split.removed.end());
-    const double limit = context.distance_limit;
-    if (context.distance.after_change(mesh, touched, limit) > limit) {
-      context.distance.rollback();
-      return false;
-    }
+    if (!stays_on_surface(context, touched)) return false;
   }
   commit(context, trial);
   return true;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "optimize/hausdorff.h"
 #include "ovm/quality.h"
 #include "ovm/topology_check.h"
 #include "simplify/feature_targets.h"
@@ -76,16 +75,31 @@ Refusal relax_region(TrialContext& context, std::span<const CellHandle> region,
     // Fitting asks for several closest points a quadrilateral; it matters in the end only.
     p.surface.treatment =
         last ? options.parametrization.surface.treatment : SurfaceTreatment::project;
-    const ParametrizationReport report = parametrize(context.mesh, region, context.reference, p);
+    const ParametrizationReport report = [&] {
+      const StageTimer timer(context.clock, Stage::parametrization);
+      return parametrize(context.mesh, region, context.reference, p);
+    }();
     if (!report.valid()) return refusal_of(report.failure);
     if (report.mean_scaled_jacobian < (last ? 1 : 1 - kHalfwayMean) * mean) return Refusal::quality;
     if (last) return stays_on_surface(context, touched) ? Refusal::none : Refusal::hausdorff;
+    const StageTimer timer(context.clock, Stage::distance);
     const double limit = options.give_up_factor * context.distance_limit;
     const bool far = context.distance.after_change(context.mesh, touched, limit) > limit;
     context.distance.rollback();
     if (far) return Refusal::hausdorff;
   }
   return Refusal::none;
+}
+
+// What takes a look at the whole mesh comes last: it costs more than most refusals took, and hardly
+// ever finds anything. A hole that moved from one part to another shows only here.
+Refusal check_structure(const TrialContext& context, const BaseComplex& before,
+                        BaseComplex& after) {
+  const StageTimer timer(context.clock, Stage::structure);
+  if (!same_shape(context.shape, summarize_topology(context.mesh))) return Refusal::topology;
+  after = extract_base_complex(context.mesh);
+  const bool simpler = after.irregular == 0 && after.components.size() < before.components.size();
+  return simpler ? Refusal::none : Refusal::structure;
 }
 
 // Empty if the plan does away with a feature.
@@ -117,12 +131,14 @@ Quality measure_quality(const HexMesh& mesh, std::span<const CellHandle> cells) 
 
 bool stays_on_surface(TrialContext& context, std::span<const CellHandle> touched) {
   constexpr double kClose = 0.9;  // of the limit; below it the loop's samples have never missed it
+  const StageTimer timer(context.clock, Stage::distance);
   const double limit = context.distance_limit;
   const double d = context.distance.after_change(context.mesh, touched, limit);
   if (d <= kClose * limit) return true;
-  if (d <= limit && is_within(context.mesh, context.reference, context.final_limit,
-                              {.parallel = context.parallel}))
-    return true;
+  if (d <= limit) {
+    const StageTimer full(context.clock, Stage::full_distance);
+    if (context.distance.change_is_within(context.final_limit)) return true;
+  }
   context.distance.rollback();
   return false;
 }
@@ -179,7 +195,10 @@ TrialResult try_collapse(TrialContext& context, const BaseComplex& bc, const Col
                          const SimplifyOptions& options) {
   HexMesh& mesh = context.mesh;
   TrialResult result;
-  result.refusal = check_plan(mesh, bc.graph, plan, options.valence);
+  {
+    const StageTimer timer(context.clock, Stage::plan_check);
+    result.refusal = check_plan(mesh, bc.graph, plan, options.valence);
+  }
   if (!result.accepted()) return result;
 
   const auto targets = targets_of(context, bc, plan);
@@ -195,23 +214,17 @@ TrialResult try_collapse(TrialContext& context, const BaseComplex& bc, const Col
   const auto left = apply_plan(mesh, plan, *targets);
   result.refusal = check_topology_after(mesh, left, euler);
   if (!result.accepted()) return result;
-  BaseComplex after = extract_base_complex(mesh);
-  if (after.irregular > 0 || after.components.size() >= bc.components.size()) {
-    result.refusal = Refusal::structure;
-    return result;
-  }
 
   const std::vector<CellHandle> region = cells_around(mesh, left, options.rings * plan.width);
   result.refusal = relax_region(context, region, plan, old, options);
   if (!result.accepted()) return result;
-  // The Euler number is kept; a hole that moved from one part to another shows only here.
-  if (!same_shape(context.shape, summarize_topology(mesh))) {
+  result.refusal = check_structure(context, bc, result.base_complex);
+  if (!result.accepted()) {
     context.distance.rollback();
-    result.refusal = Refusal::topology;
+    result.base_complex = {};
     return result;
   }
   commit(context, trial);
-  result.base_complex = std::move(after);
   result.region = region;
   return result;
 }

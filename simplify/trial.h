@@ -12,6 +12,7 @@
 #include "ovm/transaction.h"
 #include "simplify/options.h"
 #include "simplify/plan_check.h"
+#include "simplify/profile.h"
 
 namespace hexweft {
 
@@ -20,10 +21,10 @@ struct TrialContext {
   HexMesh& mesh;
   const ReferenceSurface& reference;
   SurfaceDistance& distance;
-  TopologySummary shape;  ///< of the input: genus and parts that every state must have
-  double distance_limit;  ///< model units, at the sampling of `distance`
-  double final_limit;     ///< model units, at full sampling
-  bool parallel = false;  ///< may use a second thread
+  TopologySummary shape;        ///< of the input: genus and parts that every state must have
+  double distance_limit;        ///< model units, at the sampling of `distance`
+  double final_limit;           ///< model units, at full sampling
+  StageClock* clock = nullptr;  ///< told of the stages of a trial, if any
   /// Features of the mesh's vertices, where they have been asked for since it changed last.
   std::optional<std::vector<FeatureLabel>> labels = {};
 };
@@ -42,7 +43,7 @@ struct TrialResult {
 };
 
 /// Collapses; on refusal the mesh and the distance are as before. Cheap checks come first: the
-/// plan, the topology, the new base complex, the parametrization, the distance.
+/// plan, the topology where it changed, the parametrization, the distance, the new base complex.
 TrialResult try_collapse(TrialContext& context, const BaseComplex& bc, const CollapsePlan& plan,
                          const SimplifyOptions& options);
 
@@ -50,7 +51,7 @@ TrialResult try_collapse(TrialContext& context, const BaseComplex& bc, const Col
 void commit(TrialContext& context, Transaction& change);
 
 /// Brings the distance up to the mesh after a change of these cells, dead or alive, and checks it
-/// against the limits; where it is close, at full sampling. Over one, the distance is rolled back.
+/// against the limits; where it is close, at full sampling of what changed. Over one, the distance is rolled back.
 bool stays_on_surface(TrialContext& context, std::span<const CellHandle> touched);
 
 /// Relaxes round the place farthest from the surface if that is close to the limit: later trials there

@@ -39,7 +39,7 @@ Run::Run(HexMesh& mesh, const SimplifyOptions& options)
                summarize_topology(mesh),
                kLoopShare * options.hausdorff_limit_rel * reference_.bounding_box_diagonal(),
                options.hausdorff_limit_rel * reference_.bounding_box_diagonal(),
-               options.threads > 1},
+               &clock_},
       bc_(extract_base_complex(mesh)),
       last_checkpoint_(start_) {
   if (bc_.irregular > 0) {

@@ -121,7 +121,8 @@ void Run::keep_checkpoint(bool now) {
 bool Run::may_be_written() const {
   const TopologySummary t = summarize_topology(mesh_);
   return is_valid(mesh_) && min_scaled_jacobian(mesh_) > 0 && t.genus == context_.shape.genus &&
-         t.n_parts == context_.shape.n_parts && is_within(mesh_, reference_, context_.final_limit);
+         t.n_parts == context_.shape.n_parts &&
+         is_within(mesh_, reference_, context_.final_limit, {.parallel = options_.threads > 1});
 }
 
 // Keeps a copy that is within the limit at full sampling; where this one is not, keeps more
@@ -182,7 +183,9 @@ void Run::smooth_all() {
 
 void Run::measure_output(bool smoothed) {
   const auto measuring = timer(Stage::verification);
-  if (!smoothed) report_.hausdorff_ratio = hausdorff_distance(mesh_, reference_).ratio();
+  if (!smoothed)
+    report_.hausdorff_ratio =
+        hausdorff_distance(mesh_, reference_, {.parallel = options_.threads > 1}).ratio();
   mesh_.collect_garbage();
   report_.after = measure_mesh(mesh_);
   report_.seconds = earlier_seconds_ + seconds();

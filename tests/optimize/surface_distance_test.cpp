@@ -73,6 +73,29 @@ TEST(SurfaceDistance, LimitsToTouchedCellsWithTheSameResult) {
   }
 }
 
+TEST(SurfaceDistance, LooksBetweenTheSamplesOfAChange) {
+  HexMesh mesh = make_octree_like(Shape::blob, 8, 1);
+  const auto reference = make_reference_surface(mesh);
+  SurfaceDistance kept(mesh, reference, {.suspect_levels = 0});
+  Random random(5);
+  int missed = 0;  // by the samples
+  for (int i = 0; i < 20; ++i) {
+    Transaction trial(mesh);
+    dent(mesh, random);
+    for (VertexHandle v : mesh.vertices()) {  // then only what lies between vertices is far
+      if (mesh.is_boundary(v)) mesh.set_point(v, reference.closest(mesh.point(v)).point);
+    }
+    const double sampled = kept.after_change(mesh);
+    const double d = hausdorff_distance(mesh, reference).distance();
+    missed += sampled < 0.99 * d;
+    EXPECT_FALSE(kept.change_is_within(0.99 * d));
+    EXPECT_TRUE(kept.change_is_within(1.01 * d));
+    kept.rollback();
+    EXPECT_TRUE(kept.change_is_within(0));  // nothing has changed
+  }
+  EXPECT_GT(missed, 0);
+}
+
 TEST(SurfaceDistance, FollowsCellsThatComeAndGo) {
   HexMesh mesh = make_grid({4, 4, 4});
   const auto reference = make_reference_surface(mesh);

@@ -19,7 +19,7 @@ struct Bench {
         distance(mesh, reference),
         context{mesh, reference, distance, summarize_topology(mesh),
                 0.01 * reference.bounding_box_diagonal(),
-                0.01 * reference.bounding_box_diagonal(), false} {}
+                0.01 * reference.bounding_box_diagonal()} {}
   std::optional<DualSheet> choose(const RefineOptions& o,
                                   std::span<const EdgeHandle> excluded = {}) const {
     return choose_sheet_to_refine(mesh, distance, o, excluded);

@@ -302,12 +302,18 @@ TEST(Simplify, ProfileAddsUpToTheRun) {
   HexMesh mesh = make_small_sphere();
   const SimplifyReport report = simplify(mesh);
   EXPECT_NEAR(report.profile.seconds(), report.seconds, 0.01 * report.seconds);
+  const Profile& p = report.profile;
   EXPECT_EQ(report.profile[Stage::trial].entered, report.sheets.tried() + report.chords.tried());
   double trials = 0;
   for (const TrialCounts* c : {&report.sheets, &report.chords}) {
     trials = std::accumulate(c->seconds.begin(), c->seconds.end(), trials);
   }
-  EXPECT_NEAR(trials, report.profile[Stage::trial].seconds, 0.01 * report.seconds);
+  const double own = p[Stage::trial].seconds + p[Stage::plan_check].seconds +
+                     p[Stage::structure].seconds + p[Stage::parametrization].seconds;
+  const double shared =
+      p[Stage::distance].seconds + p[Stage::full_distance].seconds;  // with splits
+  EXPECT_GT(trials, own - 0.01 * report.seconds);
+  EXPECT_LT(trials, own + shared + 0.01 * report.seconds);
 }
 
 TEST(Simplify, ThinnestFirstIsAnotherOrder) {

@@ -20,7 +20,7 @@ struct Bench {
         distance(mesh, reference),
         context{mesh, reference, distance, summarize_topology(mesh),
                 limit_rel * reference.bounding_box_diagonal(),
-                limit_rel * reference.bounding_box_diagonal(), false},
+                limit_rel * reference.bounding_box_diagonal()},
         bc(extract_base_complex(mesh)) {}
   HexMesh mesh;
   ReferenceSurface reference;

@@ -1,0 +1,59 @@
+// The change of a SurfaceDistance between its samples.
+#include <cmath>
+
+#include "optimize/farthest_sample.h"
+#include "optimize/surface_distance.h"
+
+namespace hexweft {
+namespace {
+
+constexpr int kLevels = 2;  // 16 parts of a triangle of mean size, each with its corners
+
+}  // namespace
+
+bool SurfaceDistance::change_is_within(double limit) {
+  int near = -1;
+  FarthestSample farthest(
+      [&](const Eigen::Vector3d& p) {
+        const SurfacePoint s = reference_.closest(p, near);
+        near = s.triangle;
+        return s.distance;
+      },
+      limit, limit);
+  for (const SideUndo& u : side_undo_) {
+    if (!grid_.contains(u.side)) continue;
+    const QuadPoints& q = grid_.points(u.side);
+    farthest.look_at(q[0], q[1], q[2], kLevels + levels_for(q[0], q[1], q[2]));
+    farthest.look_at(q[2], q[3], q[0], kLevels + levels_for(q[2], q[3], q[0]));
+    if (farthest.done()) return false;
+  }
+  return changed_triangles_are_within(limit);
+}
+
+bool SurfaceDistance::changed_triangles_are_within(double limit) {
+  std::vector<char> changed(samples_.size(), 0);
+  for (const SampleUndo& u : sample_undo_) changed[u.sample] = 1;
+  int guess = -1;
+  FarthestSample farthest(
+      [&](const Eigen::Vector3d& p) {
+        const QuadGrid::Nearest nearest = grid_.nearest(p, guess);
+        guess = nearest.id;
+        return std::sqrt(nearest.squared_distance);
+      },
+      limit, limit);
+  const auto& points = reference_.points();
+  for (std::size_t t = 0; t < samples_of_triangle_.size() && !farthest.done(); ++t) {
+    const TriangleSamples& own = samples_of_triangle_[t];
+    const auto& corners = reference_.triangles()[t];
+    bool any = changed[own.first_centroid];
+    for (int i = 0; i < 3; ++i) any |= changed[corners[i]] || changed[own.edges[i]];
+    if (!any) continue;
+    guess = samples_[own.first_centroid].side;
+    const Eigen::Vector3d a = points.col(corners[0]), b = points.col(corners[1]),
+                          c = points.col(corners[2]);
+    farthest.look_at(a, b, c, kLevels + levels_for(a, b, c));
+  }
+  return !farthest.done();
+}
+
+}  // namespace hexweft
