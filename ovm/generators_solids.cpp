@@ -249,8 +249,8 @@ Solid plate_with_holes(int n) {
   const double pitch = 2.0 / n_columns;
   Solid s = box_solid({1, pitch * n_rows / 2, std::min(0.3, 0.3 * pitch)});
   for (int i = 0; i < n; ++i) {
-    const Vector3d center(pitch * (i % n_columns + 0.5) - 1,
-                          pitch * (i / n_columns + 0.5 - 0.5 * n_rows), 0);
+    const int column = i % n_columns, row = i / n_columns;
+    const Vector3d center(pitch * (column + 0.5) - 1, pitch * (row + 0.5 - 0.5 * n_rows), 0);
     s = subtract(s, moved(cylinder_solid(0.25 * pitch, 1), center));
   }
   return s;

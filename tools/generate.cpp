@@ -35,6 +35,7 @@ struct Kind {
 
 std::vector<std::string> shape_names() {
   std::vector<std::string> names;
+  names.reserve(kShapes.size() + sample_solids().size());
   for (Shape shape : kShapes) names.emplace_back(name(shape));
   for (const SampleSolid& sample : sample_solids()) names.emplace_back(sample.name);
   return names;
