@@ -1,6 +1,7 @@
 #include "tools/cli.h"
 
 #include <cmath>
+#include <filesystem>
 #include <iostream>
 #include <new>
 
@@ -46,6 +47,18 @@ std::string short_number(double x) {
 }
 
 }  // namespace
+
+bool is_same_file(const std::string& a, const std::string& b) {
+  namespace fs = std::filesystem;
+  if (a.empty() || b.empty() || a == "-" || b == "-") return false;
+  std::error_code problem;  // a path that cannot be looked at fails where it is used
+  const bool exists = fs::exists(a, problem) && fs::exists(b, problem);
+  if (!exists) {
+    return fs::absolute(a, problem).lexically_normal() ==
+           fs::absolute(b, problem).lexically_normal();
+  }
+  return fs::is_regular_file(a, problem) && fs::equivalent(a, b, problem);
+}
 
 CLI::Validator in_range(double least, double most) {
   const std::string range = "[" + short_number(least) + ", " + short_number(most) + "]";
@@ -101,6 +114,9 @@ void Program::add_threads(int& n) {
 void Program::check_paths() const {
   if (output_path_ == "-" && json_path_ == "-") {
     throw InputError("only one of --output and --json can be standard output");
+  }
+  if (is_same_file(json_path_, output_path_) || is_same_file(json_path_, input_path_)) {
+    throw InputError("--json = " + json_path_ + ", expected another file than the mesh");
   }
   if (!output_path_.empty()) check_hex_mesh_output(output_path_, write_options_);
   if (wants_json()) check_writable(json_path_);

@@ -36,6 +36,9 @@ inline constexpr int kDone = 0, kFailed = 1, kWrongInput = 2, kFileProblem = 3;
 /// Accepts finite numbers in [least, most] only.
 CLI::Validator in_range(double least, double most);
 
+/// Both name one regular file, or would if they were written. Never true of "-" and devices.
+bool is_same_file(const std::string& a, const std::string& b);
+
 class Program {
  public:
   Program(const std::string& name, const std::string& summary);

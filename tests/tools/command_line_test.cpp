@@ -88,6 +88,23 @@ TEST_F(CommandLine, AFailureLeavesTheOutputAsItWas) {
   EXPECT_EQ(n_files(), 2);
 }
 
+TEST_F(CommandLine, AReportNeverTakesThePlaceOfAMesh) {
+  EXPECT_EQ(run("hexweft-generate grid -o a.vtk && ln -s a.vtk link && mkdir d").exit_code, 0);
+  const std::string before = read_file(file("a.vtk"));
+  for (const std::string command :
+       {"hexweft-info a.vtk --json a.vtk", "hexweft-info a.vtk --json ./link",
+        "hexweft-info d/../a.vtk --json a.vtk", "hexweft-generate grid -o b.vtk --json ./b.vtk"}) {
+    SCOPED_TRACE(command);
+    const ToolRun result = run(command);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_THAT(result.err, testing::HasSubstr("expected another file than the mesh"));
+  }
+  EXPECT_EQ(read_file(file("a.vtk")), before);
+  EXPECT_FALSE(std::filesystem::exists(file("b.vtk")));
+  EXPECT_EQ(run("hexweft-info a.vtk --json /dev/null").exit_code, 0);
+  EXPECT_EQ(run("hexweft-convert a.vtk -o a.vtk").exit_code, 0);
+}
+
 TEST_F(CommandLine, ConversionThereAndBackIsExact) {
   EXPECT_EQ(run("hexweft-generate octree-like --shape torus --resolution 10 -o a.vtk").exit_code,
             0);
