@@ -43,6 +43,7 @@ Section square_section(int n, double half) {
 // Rim of a square section, counter-clockwise from its lowest corner.
 std::vector<int> rim_of_square(int n) {
   std::vector<int> rim;
+  rim.reserve(4 * n);
   for (int i = 0; i < n; ++i) rim.push_back(i);
   for (int j = 0; j < n; ++j) rim.push_back(n + (n + 1) * j);
   for (int i = n; i > 0; --i) rim.push_back(i + (n + 1) * n);
