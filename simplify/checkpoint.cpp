@@ -42,6 +42,13 @@ Json to_json(const ValenceLimits& v) {
           {"max_angle_deg", v.max_angle_deg}};
 }
 
+Json to_json(const LastRound& r) {
+  return {{"wanted", r.wanted},
+          {"max_angle_deg", r.max_angle_deg},
+          {"min_scaled_jacobian", r.min_scaled_jacobian},
+          {"mean_scaled_jacobian", r.mean_scaled_jacobian}};
+}
+
 Json to_json(const ParametrizationOptions& p) {
   return {{"energy", name(p.energy)},
           {"max_iterations", p.max_iterations},
@@ -123,6 +130,7 @@ Json lasting_options(const SimplifyOptions& o) {
           {"give_up_factor", o.give_up_factor},
           {"max_chord_deviation", o.max_chord_deviation},
           {"valence", to_json(o.valence)},
+          {"last_round", to_json(o.last_round)},
           {"features", static_cast<int>(o.features.mode)},
           {"feature_angle_deg", o.features.angle_deg},
           {"parametrization", to_json(o.parametrization)},

@@ -5,26 +5,23 @@
 namespace hexweft {
 namespace {
 
-bool has_edge(const HexMesh& mesh, CellHandle c, EdgeHandle e) {
-  const auto& edges = mesh.edges(c);
-  return std::find(edges.begin(), edges.end(), e) != edges.end();
-}
-
-// The edge that continues e straight through v: the one that shares no cell with it, if just one
-// does.
+// The edge that continues e straight through its end v; none where that leads out of the mesh. v is
+// regular: whichever cell at e one looks in, it is the edge behind the side at v that e ends on.
 EdgeHandle straight_on(const HexMesh& mesh, EdgeHandle e, VertexHandle v) {
-  EdgeHandle found;
-  for (EdgeHandle g : mesh.edges(v)) {
-    if (g == e) continue;
-    const auto cells = mesh.cells(g);
-    if (std::any_of(cells.begin(), cells.end(),
-                    [&](CellHandle c) { return has_edge(mesh, c, e); })) {
-      continue;
+  const auto it = mesh.cells(e).begin();
+  const int edge = it.slot() % 12;
+  const int end = mesh.vertices(*it)[kEdgeCorners[edge][1]] == v;
+  const HalfFaceHandle side = mesh.halfface(*it, 2 * edge_axis(edge) + end);
+  if (mesh.is_boundary(side)) return EdgeHandle();
+  const HalfFaceHandle behind = mesh.opposite(side);
+  const CellHandle c = mesh.cell(behind);
+  for (int i = 0; i < 4; ++i) {
+    const int across = 4 * side_axis(behind.idx % 6) + i;
+    for (int corner : kEdgeCorners[across]) {
+      if (mesh.vertices(c)[corner] == v) return mesh.edges(c)[across];
     }
-    if (found.valid()) return EdgeHandle();
-    found = g;
   }
-  return found;
+  return EdgeHandle();
 }
 
 }  // namespace

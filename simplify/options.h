@@ -15,6 +15,15 @@ namespace hexweft {
 
 struct RunState;  // checkpoint.h
 
+/// When nothing is left, a last round goes on where ValenceLimits::max_angle_deg stood in the way,
+/// with floors of its own: a boundary edge with a single cell costs quality.
+struct LastRound {
+  bool wanted = true;
+  double max_angle_deg = 360;          ///< as in ValenceLimits
+  double min_scaled_jacobian = 0.3;    ///< as in SimplifyOptions
+  double mean_scaled_jacobian = 0.85;  ///< as in SimplifyOptions
+};
+
 /// When to stop simplifying and what to preserve.
 struct SimplifyOptions {
   Ranking ranking = Ranking::weighted;  ///< by what the candidates are ordered
@@ -34,6 +43,7 @@ struct SimplifyOptions {
   double give_up_factor = 2;  ///< >= 1; half relaxed and so many limits away, a trial ends
   double max_chord_deviation = 0.9;  ///< > 0, D(c) / 3k of a chord that is tried
   ValenceLimits valence = {};
+  LastRound last_round = {};
   FeatureOptions features = {};  ///< sharp edges and corners of the input's surface that are held
   ParametrizationOptions parametrization = {.max_iterations = 4,
                                             .surface = {.treatment = SurfaceTreatment::fit}};

@@ -53,43 +53,78 @@ bool same_shape(const TopologySummary& a, const TopologySummary& b) {
          a.genus == b.genus;
 }
 
-// What half a parametrization must have reached of the floors for the other half to be worth its
-// time.
-constexpr double kHalfway = 0.5;
-constexpr double kHalfwayMean = 0.03;
-
-// Parametrizes in two parts, so that what ends far off the surface is given up early. A step may
-// lower the quality of its region to the floors, but where it was under them already, not any
-// further.
-Refusal relax_region(TrialContext& context, std::span<const CellHandle> region,
-                     const CollapsePlan& plan, const Quality& old, const SimplifyOptions& options) {
-  ParametrizationOptions p = options.parametrization;
-  std::vector<CellHandle> touched(region.begin(), region.end());
-  touched.insert(touched.end(), plan.removed.begin(), plan.removed.end());
-  const double least = std::max(std::min(options.min_scaled_jacobian, old.least), 1e-3);
-  const double mean = std::min(options.mean_scaled_jacobian, old.mean);
-  const int first = std::min(1, p.max_iterations);
-  for (const bool last : {false, true}) {
-    p.max_iterations = last ? std::max(1, options.parametrization.max_iterations - first) : first;
-    p.min_scaled_jacobian = last ? least : kHalfway * least;
-    // Fitting asks for several closest points a quadrilateral; it matters in the end only.
-    p.surface.treatment =
-        last ? options.parametrization.surface.treatment : SurfaceTreatment::project;
-    const ParametrizationReport report = [&] {
-      const StageTimer timer(context.clock, Stage::parametrization);
-      return parametrize(context.mesh, region, context.reference, p);
-    }();
-    if (!report.valid()) return refusal_of(report.failure);
-    if (report.mean_scaled_jacobian < (last ? 1 : 1 - kHalfwayMean) * mean) return Refusal::quality;
-    if (last) return stays_on_surface(context, touched) ? Refusal::none : Refusal::hausdorff;
-    const StageTimer timer(context.clock, Stage::distance);
-    const double limit = options.give_up_factor * context.distance_limit;
-    const bool far = context.distance.after_change(context.mesh, touched, limit) > limit;
-    context.distance.rollback();
-    if (far) return Refusal::hausdorff;
+// The parametrization of one collapse, in two parts, so that what ends far off the surface is given
+// up early. A step may lower the quality of its region to the floors, but where it was under them
+// already, not any further.
+class RegionRelaxation {
+ public:
+  RegionRelaxation(TrialContext& context, std::span<const CellHandle> region,
+                   const CollapsePlan& plan, const Quality& old, const SimplifyOptions& options)
+      : context_(context),
+        region_(region),
+        touched_(region.begin(), region.end()),
+        options_(options),
+        least_(std::max(std::min(options.min_scaled_jacobian, old.least), 1e-3)),
+        mean_(std::min(options.mean_scaled_jacobian, old.mean)) {
+    touched_.insert(touched_.end(), plan.removed.begin(), plan.removed.end());
   }
-  return Refusal::none;
-}
+
+  Refusal run() {
+    // Fitting asks for several closest points a quadrilateral; it matters in the end only.
+    const int all = options_.parametrization.max_iterations, first = std::min(1, all);
+    const Refusal early =
+        parametrize_region(first, SurfaceTreatment::project, kHalfway, 1 - kHalfwayMean);
+    if (early != Refusal::none) return early;
+    const double halfway = distance_at_most(options_.give_up_factor * context_.distance_limit);
+    if (halfway > options_.give_up_factor * context_.distance_limit) return Refusal::hausdorff;
+    const SurfaceTreatment wanted = options_.parametrization.surface.treatment;
+    Transaction second(context_.mesh);
+    const Refusal refusal = finish(std::max(1, all - first), wanted);
+    const bool was_near = refusal == Refusal::hausdorff && halfway <= context_.distance_limit;
+    if (!was_near || wanted == SurfaceTreatment::project) {
+      second.commit();
+      return refusal;
+    }
+    // Where sharp edges run across the quadrilaterals, fitting them does harm.
+    second.rollback();
+    return finish(std::max(1, all - first), SurfaceTreatment::project);
+  }
+
+ private:
+  // What half a parametrization must have reached of the floors for the other half to be worth its
+  // time.
+  static constexpr double kHalfway = 0.5;
+  static constexpr double kHalfwayMean = 0.03;
+
+  Refusal parametrize_region(int iterations, SurfaceTreatment treatment, double share_of_least,
+                             double share_of_mean) {
+    const StageTimer timer(context_.clock, Stage::parametrization);
+    ParametrizationOptions p = options_.parametrization;
+    p.max_iterations = iterations;
+    p.min_scaled_jacobian = share_of_least * least_;
+    p.surface.treatment = treatment;
+    const ParametrizationReport report = parametrize(context_.mesh, region_, context_.reference, p);
+    if (!report.valid()) return refusal_of(report.failure);
+    return report.mean_scaled_jacobian < share_of_mean * mean_ ? Refusal::quality : Refusal::none;
+  }
+  Refusal finish(int iterations, SurfaceTreatment treatment) {
+    const Refusal refusal = parametrize_region(iterations, treatment, 1, 1);
+    if (refusal != Refusal::none) return refusal;
+    return stays_on_surface(context_, touched_) ? Refusal::none : Refusal::hausdorff;
+  }
+  double distance_at_most(double limit) {
+    const StageTimer timer(context_.clock, Stage::distance);
+    const double d = context_.distance.after_change(context_.mesh, touched_, limit);
+    context_.distance.rollback();
+    return d;
+  }
+
+  TrialContext& context_;
+  std::span<const CellHandle> region_;
+  std::vector<CellHandle> touched_;
+  const SimplifyOptions& options_;
+  double least_, mean_;  // floors
+};
 
 // What takes a look at the whole mesh comes last: it costs more than most refusals took, and hardly
 // ever finds anything. A hole that moved from one part to another shows only here.
@@ -130,7 +165,7 @@ Quality measure_quality(const HexMesh& mesh, std::span<const CellHandle> cells) 
 }
 
 bool stays_on_surface(TrialContext& context, std::span<const CellHandle> touched) {
-  constexpr double kClose = 0.9;  // of the limit; below it the loop's samples have never missed it
+  constexpr double kClose = 0.8;  // of the limit; the samples of the loop miss less than the rest
   const StageTimer timer(context.clock, Stage::distance);
   const double limit = context.distance_limit;
   const double d = context.distance.after_change(context.mesh, touched, limit);
@@ -157,7 +192,9 @@ bool relieve_farthest(TrialContext& context, const SimplifyOptions& options) {
   p.min_scaled_jacobian = std::min(options.min_scaled_jacobian, old.least);
   Transaction attempt(mesh);
   if (!parametrize(mesh, region, context.reference, p).valid()) return false;
-  if (context.distance.after_change(mesh, region, before) >= before) {
+  const bool nearer = context.distance.after_change(mesh, region, before) < before &&
+                      context.distance.change_is_within(context.final_limit);
+  if (!nearer) {
     context.distance.rollback();
     return false;
   }
@@ -216,7 +253,7 @@ TrialResult try_collapse(TrialContext& context, const BaseComplex& bc, const Col
   if (!result.accepted()) return result;
 
   const std::vector<CellHandle> region = cells_around(mesh, left, options.rings * plan.width);
-  result.refusal = relax_region(context, region, plan, old, options);
+  result.refusal = RegionRelaxation(context, region, plan, old, options).run();
   if (!result.accepted()) return result;
   result.refusal = check_structure(context, bc, result.base_complex);
   if (!result.accepted()) {

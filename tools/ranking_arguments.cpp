@@ -86,6 +86,13 @@ void add_filter_options(CLI::App& app, SimplifyOptions& options) {
       ->check(in_range(1, 100))
       ->capture_default_str()
       ->group("Filters");
+  app.add_option(
+         "--max-boundary-angle", options.valence.max_angle_deg,
+         "Widest angle in degrees, between sides on the boundary, that a single hexahedron may "
+         "come to fill; 360 allows all")
+      ->check(in_range(1, 360))
+      ->capture_default_str()
+      ->group("Filters");
 }
 
 }  // namespace hexweft::cli

@@ -29,6 +29,7 @@ constexpr double kVerifyEvery = 0.5;
 Run::Run(HexMesh& mesh, const SimplifyOptions& options)
     : mesh_(mesh),
       options_(options),
+      trial_options_(options),
       start_(Clock::now()),
       clock_(Stage::preparation),
       reference_(make_reference_surface(mesh, kNormalAngle, options.features)),
@@ -54,10 +55,11 @@ SimplifyReport Run::run() {
   clock_.back_to(Stage::other);
   observe({.what = StepKind::start});
   loop();
+  last_round();
   if (n_collapses() == 0 && step_ > 0) give_back_input();
   while (!is_cut_short() && is_short_of_cells(kRefineBelow) && refine(0)) {
   }
-  if (step_ > 0) fall_back();
+  end_with_what_may_be_written();
   keep_checkpoint(true);
   const bool smoothing = step_ > 0 && options_.smooth && !is_cut_short();
   if (smoothing) smooth_all();
@@ -75,6 +77,22 @@ void Run::loop() {
     }
     if (!collapse_one(true) && !refine(long_enough, kMostCells) && !collapse_one(false)) break;
   }
+}
+
+// Once nothing is left, layers under the surface may go, as long as the elements stay good.
+void Run::last_round() {
+  const auto by_angle = static_cast<int>(Refusal::angle);
+  if (report_.sheets.refused[by_angle] + report_.chords.refused[by_angle] == 0) return;
+  if (!options_.last_round.wanted || is_cut_short() ||
+      report_.stopped == StopReason::target_reached)
+    return;
+  trial_options_.valence.max_angle_deg = options_.last_round.max_angle_deg;
+  trial_options_.min_scaled_jacobian = options_.last_round.min_scaled_jacobian;
+  trial_options_.mean_scaled_jacobian = options_.last_round.mean_scaled_jacobian;
+  memory_.forget_all();
+  failed_in_a_row_ = 0;
+  report_.stopped = StopReason::nothing_left;
+  loop();
 }
 
 bool Run::is_cut_short() {
@@ -162,7 +180,7 @@ bool Run::attempt(const CollapsePlan& plan, TrialCounts& counts, SimplifyProgres
   const double begun = seconds();
   TrialResult result = [&] {
     const auto trial = timer(Stage::trial);
-    return try_collapse(context_, bc_, plan, options_);
+    return try_collapse(context_, bc_, plan, trial_options_);
   }();
   counts.seconds[static_cast<int>(result.refusal)] += seconds() - begun;
   if (!result.accepted()) {

@@ -25,6 +25,7 @@ class Run {
 
   // ---- The loop (run.cpp) ----
   void loop();
+  void last_round();
   bool collapse_one(bool patient);
   bool collapse_sheet(const CandidateQueues& q, bool patient);
   bool collapse_chord(const CandidateQueues& q, bool patient);
@@ -47,16 +48,19 @@ class Run {
   void keep_checkpoint(bool now = false);
   bool may_be_written() const;
   void verify();
+  void go_back();
+  bool ends_well();
+  void end_with_what_may_be_written();
   void replace_mesh(const HexMesh& mesh);
   void compact();
   void give_back_input();
-  void fall_back();
   void smooth_all();
   void measure_output(bool smoothed);
   StageTimer timer(Stage stage) { return {&clock_, stage}; }
 
   HexMesh& mesh_;
   const SimplifyOptions& options_;
+  SimplifyOptions trial_options_;  // those of the round at hand
   Clock::time_point start_;
   StageClock clock_;
   ReferenceSurface reference_;

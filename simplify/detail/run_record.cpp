@@ -125,16 +125,38 @@ bool Run::may_be_written() const {
          is_within(mesh_, reference_, context_.final_limit, {.parallel = options_.threads > 1});
 }
 
-// Keeps a copy that is within the limit at full sampling; where this one is not, keeps more
-// distance.
+// Keeps a copy that is within the limit at full sampling.
 void Run::verify() {
   const auto verifying = timer(Stage::verification);
   verified_components_ = static_cast<int>(bc_.components.size());
   if (may_be_written()) {
     verified_ = mesh_;
   } else {
-    context_.distance_limit *= 0.95;
+    go_back();
   }
+}
+
+// To the last mesh that may be written; what comes keeps more distance from the limit.
+void Run::go_back() {
+  context_.distance_limit *= 0.95;
+  replace_mesh(verified_);
+  verified_components_ = static_cast<int>(bc_.components.size());
+}
+
+bool Run::ends_well() {
+  const auto verifying = timer(Stage::verification);
+  return step_ == 0 || may_be_written();
+}
+
+void Run::end_with_what_may_be_written() {
+  constexpr int kMore = 2;  // goes at what was lost
+  bool well = ends_well();
+  for (int i = 0; i < kMore && !well && !is_cut_short(); ++i) {
+    go_back();
+    loop();
+    well = ends_well();
+  }
+  if (!well) go_back();
 }
 
 // Handles change: what is known by handle is made anew.
@@ -160,11 +182,6 @@ void Run::give_back_input() {
   step_ = 0;
   report_.refinement_failed += report_.refined;
   report_.refined = 0;
-}
-
-void Run::fall_back() {
-  const auto verifying = timer(Stage::verification);
-  if (!may_be_written()) mesh_ = verified_;
 }
 
 void Run::smooth_all() {
