@@ -14,6 +14,7 @@ class PartialMove {
         before_(before),
         distance_(distance),
         limits_(limits),
+        distance_before_(distance.distance()),
         scaled_jacobians_(scaled_jacobians(before.points, before.hexes)),
         goal_(before.points),
         points_(before.points),
@@ -30,11 +31,14 @@ class PartialMove {
   bool mark_far_sides();
   void widen_marks();
   bool take_back(bool all_the_way);
+  void take_back_round_marks(int round);
+  bool mend_hexes();
 
   HexMesh& mesh_;
   const Region& before_;
   SurfaceDistance& distance_;
   const MoveLimits& limits_;
+  double distance_before_;                // of the whole surface, model units
   std::vector<double> scaled_jacobians_;  // before the move
   Eigen::Matrix3Xd goal_, points_;
   std::vector<double> fraction_;  // of the way to the goal
@@ -61,25 +65,26 @@ bool PartialMove::mark_bad_hexes() {
   return any;
 }
 
-/// Leaves the distance up to date if no side is too far, else as it was.
+/// Brings the distance up to date. What was too far before, elsewhere, is not
+/// this move's fault. \return whether any side is too far
 bool PartialMove::mark_far_sides() {
-  if (distance_.after_change(mesh_, before_.cells, limits_.distance) <= limits_.distance) {
-    return false;
-  }
-  distance_.rollback();
-  distance_.after_change(mesh_, before_.cells);
-  const std::vector<double> by_side = distance_.distance_by_halfface();
-  distance_.rollback();
-  // A side that only its denser samples show to be too far does not stand out here.
-  constexpr double kClose = 0.9;
-  double farthest = 0;
+  const double d = distance_.after_change(mesh_, before_.cells);
+  if (d <= limits_.distance) return false;
+  std::vector<double> by_side;  // six a cell
+  by_side.reserve(kSides * before_.cells.size());
   for (CellHandle c : before_.cells) {
-    for (int k = 0; k < 6; ++k) farthest = std::max(farthest, by_side[6 * c.idx + k]);
+    for (int k = 0; k < kSides; ++k) {
+      by_side.push_back(distance_.distance_at(HalfFaceHandle(kSides * c.idx + k)));
+    }
   }
+  const double farthest = *std::max_element(by_side.begin(), by_side.end());
+  if (farthest <= limits_.distance && d <= distance_before_) return false;
+  // Those about as far as the farthest go back with it: they would be the next.
+  constexpr double kClose = 0.9;
   const double threshold = std::min(limits_.distance, kClose * farthest);
   for (std::size_t i = 0; i < before_.cells.size(); ++i) {
-    for (int k = 0; k < 6; ++k) {
-      if (by_side[6 * before_.cells[i].idx + k] < threshold) continue;
+    for (int k = 0; k < kSides; ++k) {
+      if (by_side[kSides * i + k] < threshold) continue;
       for (int corner : kSideCorners[k]) marked_[before_.hexes[i][corner]] = 1;
     }
   }
@@ -105,18 +110,37 @@ bool PartialMove::take_back(bool all_the_way) {
   return any;
 }
 
-bool PartialMove::run() {
-  constexpr int kRounds = 10;
+/// Takes the marked vertices back, with ever more of their surroundings the
+/// more rounds there were.
+void PartialMove::take_back_round_marks(int round) {
   constexpr int kHalvings = 2;  // then all the way
   constexpr int kNarrow = 4;    // rounds, then the surroundings too
+  for (int i = kNarrow; i <= round; ++i) widen_marks();
+  // Where all that is marked is back already, the cause lies beside it.
+  for (int i = 0; !take_back(round >= kHalvings) && i < 3; ++i) widen_marks();
+  place();
+}
+
+/// \return false if some hexahedra stay bad
+bool PartialMove::mend_hexes() {
+  constexpr int kRounds = 20;
   for (int round = 0; round < kRounds; ++round) {
-    place();
     std::fill(marked_.begin(), marked_.end(), 0);
-    if (!mark_bad_hexes() && !mark_far_sides()) return true;
-    for (int i = kNarrow; i <= round; ++i) widen_marks();
-    // Where all that is marked is back already, the cause lies beside it.
-    for (int i = 0; !take_back(round >= kHalvings) && i < 3; ++i) widen_marks();
+    if (!mark_bad_hexes()) return true;
+    take_back_round_marks(round);
   }
+  return false;
+}
+
+bool PartialMove::run() {
+  constexpr int kRounds = 10;
+  place();
+  for (int round = 0; round < kRounds && mend_hexes(); ++round) {
+    std::fill(marked_.begin(), marked_.end(), 0);
+    if (!mark_far_sides()) return true;
+    take_back_round_marks(round);
+  }
+  distance_.rollback();
   return false;
 }
 

@@ -85,7 +85,7 @@ SurfaceDistance::SurfaceDistance(const HexMesh& mesh, const ReferenceSurface& re
 
 void SurfaceDistance::make_samples(int levels) {
   const auto& points = reference_.points();
-  const auto add = [&](const Eigen::Vector3d& p) { samples_.push_back({p, 0, -1}); };
+  const auto add = [&](const Eigen::Vector3d& p) { add_sample(p); };
   for (Eigen::Index v = 0; v < points.cols(); ++v) add(points.col(v));
   std::map<std::pair<int, int>, int> edges;
   for (const auto& t : reference_.triangles()) {
@@ -99,6 +99,7 @@ void SurfaceDistance::make_samples(int levels) {
     own.first_centroid = static_cast<int>(samples_.size());
     const Eigen::Vector3d a = points.col(t[0]), b = points.col(t[1]), c = points.col(t[2]);
     add_samples(a, b, c, levels + levels_for(a, b, c));
+    own.end = static_cast<int>(samples_.size());
   }
 }
 
@@ -111,9 +112,15 @@ int SurfaceDistance::levels_for(const Eigen::Vector3d& a, const Eigen::Vector3d&
   return levels;
 }
 
+void SurfaceDistance::add_sample(const Eigen::Vector3d& p) {
+  samples_.push_back(p);
+  backward_.push_back(0);
+  nearest_side_.add_sample();
+}
+
 void SurfaceDistance::add_samples(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                                   const Eigen::Vector3d& c, int levels) {
-  samples_.push_back({(a + b + c) / 3, 0, -1});
+  add_sample((a + b + c) / 3);
   if (levels == 0) return;
   const Eigen::Vector3d ab = (a + b) / 2, bc = (b + c) / 2, ca = (c + a) / 2;
   add_samples(a, ab, ca, levels - 1);
@@ -130,13 +137,22 @@ double SurfaceDistance::forward() const {
 
 double SurfaceDistance::backward() const {
   double d = 0;
-  for (const Sample& s : samples_) d = std::max(d, s.distance);
+  for (double b : backward_) d = std::max(d, b);
   return d;
 }
 
 std::vector<double> SurfaceDistance::distance_by_halfface() const {
   std::vector<double> d = forward_;
-  for (const Sample& s : samples_) d[s.side] = std::max(d[s.side], s.distance);
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    const int side = nearest_side_.side(static_cast<int>(i));
+    if (side >= 0) d[side] = std::max(d[side], backward_[i]);
+  }
+  return d;
+}
+
+double SurfaceDistance::distance_at(HalfFaceHandle hf) const {
+  double d = forward_[hf.idx];
+  nearest_side_.for_each(hf.idx, [&](int sample) { d = std::max(d, backward_[sample]); });
   return d;
 }
 
@@ -194,9 +210,15 @@ bool SurfaceDistance::update_side(const HexMesh& mesh, int side) {
   return true;
 }
 
+void SurfaceDistance::make_room(int n_sides) {
+  if (n_sides <= static_cast<int>(forward_.size())) return;
+  forward_.resize(n_sides, 0);
+  nearest_side_.resize(n_sides);
+}
+
 double SurfaceDistance::after_change(const HexMesh& mesh, double limit) {
   const int n = std::max<int>(6 * mesh.cell_slots(), static_cast<int>(forward_.size()));
-  forward_.resize(n, 0);
+  make_room(n);
   std::vector<int> changed;
   for (int side = 0; side < n; ++side) {
     if (update_side(mesh, side)) changed.push_back(side);
@@ -206,7 +228,7 @@ double SurfaceDistance::after_change(const HexMesh& mesh, double limit) {
 
 double SurfaceDistance::after_change(const HexMesh& mesh, std::span<const CellHandle> touched,
                                      double limit) {
-  forward_.resize(std::max<std::size_t>(6 * mesh.cell_slots(), forward_.size()), 0);
+  make_room(6 * mesh.cell_slots());
   std::vector<int> changed;
   for (CellHandle c : touched) {
     for (int side = 6 * c.idx; side < 6 * c.idx + 6; ++side) {
@@ -231,19 +253,21 @@ double SurfaceDistance::update(const HexMesh& mesh, const std::vector<int>& chan
 }
 
 double SurfaceDistance::update_samples(const std::vector<int>& changed, double limit) {
-  std::vector<char> dirty(forward_.size(), 0);
-  for (int side : changed) dirty[side] = 1;
-  for (int i = 0; i < static_cast<int>(samples_.size()); ++i) {
-    Sample& s = samples_[i];
-    if (s.side >= 0 && !dirty[s.side]) continue;
-    const int guess = s.side >= 0 && grid_.contains(s.side) ? s.side : -1;
-    const QuadGrid::Nearest nearest = grid_.nearest(s.point, guess);
-    sample_undo_.push_back({i, s.side, s.distance});
-    s.side = nearest.id;
-    s.distance = std::sqrt(nearest.squared_distance);
-    if (s.distance > limit) {
+  std::vector<int> stale;
+  const auto take = [&](int sample) { stale.push_back(sample); };
+  nearest_side_.for_each(-1, take);
+  for (int side : changed) nearest_side_.for_each(side, take);
+  std::sort(stale.begin(), stale.end());  // neighbors: a good guess for the next
+  for (int sample : stale) {
+    const int side = nearest_side_.side(sample);
+    const int guess = side >= 0 && grid_.contains(side) ? side : -1;
+    const QuadGrid::Nearest nearest = grid_.nearest(samples_[sample], guess);
+    sample_undo_.push_back({sample, side, backward_[sample]});
+    nearest_side_.move(sample, nearest.id);
+    backward_[sample] = std::sqrt(nearest.squared_distance);
+    if (backward_[sample] > limit) {
       given_up_ = true;
-      return s.distance;
+      return backward_[sample];
     }
   }
   return 0;
@@ -263,8 +287,8 @@ void SurfaceDistance::rollback() {
     forward_[it->side] = it->forward;
   }
   for (auto it = sample_undo_.rbegin(); it != sample_undo_.rend(); ++it) {
-    samples_[it->sample].side = it->side;
-    samples_[it->sample].distance = it->distance;
+    nearest_side_.move(it->sample, it->side);
+    backward_[it->sample] = it->distance;
   }
   side_undo_.clear();
   sample_undo_.clear();

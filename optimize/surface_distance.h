@@ -15,6 +15,7 @@
 
 #include "optimize/quad_grid.h"
 #include "optimize/reference_surface.h"
+#include "optimize/sample_lists.h"
 #include "ovm/hex_mesh.h"
 
 namespace hexweft {
@@ -47,6 +48,7 @@ class SurfaceDistance {
   /// Distance of one boundary side's samples to the reference, and of the reference's samples
   /// nearest to it; model units. 0 for a half-face that is not on the boundary.
   std::vector<double> distance_by_halfface() const;  ///< indexed by half-face
+  double distance_at(HalfFaceHandle hf) const;       ///< of one; costs what it has samples
 
   /// Brings the distances up to the mesh as it is now; until commit() they can be rolled back.
   /// Looks at every side of the mesh. Gives up as soon as a sample is farther than `limit` (model
@@ -57,18 +59,15 @@ class SurfaceDistance {
                       double limit = std::numeric_limits<double>::infinity());
   /// Whether what changed since the last commit() stays within `limit` (model units) also between the
   /// samples of the options: looks as closely as is_within() (hausdorff.h), at the changed part only.
-  bool change_is_within(double limit);
+  /// \param skip_rel  sides and triangles all of whose samples are closer than this, in limits, are
+  ///                  taken for good
+  bool change_is_within(double limit, double skip_rel = 0);
   void commit();    ///< \throws InputError after a change that was given up
   void rollback();  ///< to the last commit; the mesh must be rolled back by its transaction
 
   const ReferenceSurface& reference() const { return reference_; }
 
  private:
-  struct Sample {
-    Eigen::Vector3d point;
-    double distance;
-    int side;  // nearest half-face
-  };
   struct SideUndo {
     int side;
     bool present;
@@ -84,11 +83,13 @@ class SurfaceDistance {
   /// Where a triangle of the reference has its samples, beside those of its corners.
   struct TriangleSamples {
     std::array<int, 3> edges;
-    int first_centroid;
+    int first_centroid, end;  // of it and its parts
   };
 
-  bool changed_triangles_are_within(double limit);
+  bool changed_triangles_are_within(double limit, double skip);
+  void make_room(int n_sides);
   void make_samples(int levels);
+  void add_sample(const Eigen::Vector3d& p);
   void add_samples(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
                    int levels);
   bool update_side(const HexMesh& mesh, int side);
@@ -104,8 +105,10 @@ class SurfaceDistance {
   ReferenceSurface reference_;
   SurfaceDistanceOptions options_;
   double mean_area_;  // of the reference's triangles, model units²
-  std::vector<Sample>
-      samples_;  // of the vertices, then of the edges and parts of triangle after triangle
+  // Samples of the vertices, then of the edges and parts of triangle after triangle.
+  std::vector<Eigen::Vector3d> samples_;
+  std::vector<double> backward_;  // distance of every sample to its nearest side
+  SampleLists nearest_side_;
   std::vector<TriangleSamples> samples_of_triangle_;
   QuadGrid grid_;                // boundary sides by half-face
   std::vector<double> forward_;  // by half-face; 0 where not on the boundary

@@ -1,4 +1,5 @@
 // The change of a SurfaceDistance between its samples.
+#include <algorithm>
 #include <cmath>
 
 #include "optimize/farthest_sample.h"
@@ -11,7 +12,7 @@ constexpr int kLevels = 2;  // 16 parts of a triangle of mean size, each with it
 
 }  // namespace
 
-bool SurfaceDistance::change_is_within(double limit) {
+bool SurfaceDistance::change_is_within(double limit, double skip_rel) {
   int near = -1;
   FarthestSample farthest(
       [&](const Eigen::Vector3d& p) {
@@ -21,18 +22,18 @@ bool SurfaceDistance::change_is_within(double limit) {
       },
       limit, limit);
   for (const SideUndo& u : side_undo_) {
-    if (!grid_.contains(u.side)) continue;
+    if (!grid_.contains(u.side) || forward_[u.side] < skip_rel * limit) continue;
     const QuadPoints& q = grid_.points(u.side);
     farthest.look_at(q[0], q[1], q[2], kLevels + levels_for(q[0], q[1], q[2]));
     farthest.look_at(q[2], q[3], q[0], kLevels + levels_for(q[2], q[3], q[0]));
     if (farthest.done()) return false;
   }
-  return changed_triangles_are_within(limit);
+  return changed_triangles_are_within(limit, skip_rel * limit);
 }
 
-bool SurfaceDistance::changed_triangles_are_within(double limit) {
+bool SurfaceDistance::changed_triangles_are_within(double limit, double skip) {
   std::vector<char> changed(samples_.size(), 0);
-  for (const SampleUndo& u : sample_undo_) changed[u.sample] = 1;
+  for (const SampleUndo& u : sample_undo_) changed[u.sample] = backward_[u.sample] >= skip;
   int guess = -1;
   FarthestSample farthest(
       [&](const Eigen::Vector3d& p) {
@@ -45,10 +46,11 @@ bool SurfaceDistance::changed_triangles_are_within(double limit) {
   for (std::size_t t = 0; t < samples_of_triangle_.size() && !farthest.done(); ++t) {
     const TriangleSamples& own = samples_of_triangle_[t];
     const auto& corners = reference_.triangles()[t];
-    bool any = changed[own.first_centroid];
+    bool any = std::any_of(changed.begin() + own.first_centroid, changed.begin() + own.end,
+                           [](char c) { return c != 0; });
     for (int i = 0; i < 3; ++i) any |= changed[corners[i]] || changed[own.edges[i]];
     if (!any) continue;
-    guess = samples_[own.first_centroid].side;
+    guess = nearest_side_.side(own.first_centroid);
     const Eigen::Vector3d a = points.col(corners[0]), b = points.col(corners[1]),
                           c = points.col(corners[2]);
     farthest.look_at(a, b, c, kLevels + levels_for(a, b, c));

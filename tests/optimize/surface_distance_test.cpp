@@ -130,6 +130,9 @@ TEST(SurfaceDistance, RollbackRestoresEverything) {
     EXPECT_EQ(d.forward(), forward);
     EXPECT_EQ(d.backward(), backward);
     EXPECT_EQ(d.distance_by_halfface(), by_side);
+    for (std::size_t side = 0; side < by_side.size(); ++side) {
+      EXPECT_EQ(d.distance_at(HalfFaceHandle(static_cast<int>(side))), by_side[side]);
+    }
     EXPECT_EQ(d.after_change(mesh), std::max(forward, backward));  // nothing has changed
   }
 }
