@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <numeric>
 #include <string>
 
@@ -47,7 +48,7 @@ class Parametrization {
   void weigh_bad_hexes();
   RelaxationReport relax_once(const Energy& energy, int iterations);
   bool untangle();
-  void iterate();
+  void iterate(const Energy& energy, int iterations);
   double largest_relative_move(const Eigen::Matrix3Xd& from) const;
 
   Region region_;
@@ -64,9 +65,12 @@ class Parametrization {
 
 void Parametrization::weigh_bad_hexes() {
   for (std::size_t h = 0; h < problem_.targets.size(); ++h) {
-    const double shortfall = options_.quality_goal / std::max(scaled_jacobians_[h], 1e-3);
-    problem_.targets[h].weight =
-        std::clamp(shortfall * shortfall, 1.0, options_.quality_weight_limit);
+    const double shortfall =
+        std::max(1.0, options_.quality_goal / std::max(scaled_jacobians_[h], 1e-3));
+    double weight = 1;
+    for (int n = std::abs(options_.quality_exponent); n > 0; --n) weight *= shortfall;
+    weight = std::min(weight, options_.quality_weight_limit);
+    problem_.targets[h].weight = options_.quality_exponent > 0 ? weight : 1 / weight;
   }
 }
 
@@ -116,16 +120,18 @@ double Parametrization::largest_relative_move(const Eigen::Matrix3Xd& from) cons
   return std::sqrt(largest);
 }
 
-void Parametrization::iterate() {
+/// \param iterations  at most, in the count of the report
+void Parametrization::iterate(const Energy& energy, int iterations) {
   constexpr double kSmallMove = 2e-3;  // of an edge length
   constexpr double kLeastKept = 0.5;   // of the best scaled Jacobian met on the way
   double best = measure(), now = best;
   Eigen::Matrix3Xd best_points = region_.points, before;
-  while (report_.iterations < options_.max_iterations) {
+  while (report_.iterations < iterations) {
     before = region_.points;
     if (report_.iterations > 0) problem_.targets = target_cuboids(region_, options_.target);
     weigh_bad_hexes();
-    if (!relax_once(options_.energy, options_.relaxation_iterations).feasible) break;
+    problem_.stay_valid = true;  // an energy without a barrier would let corners through
+    if (!relax_once(energy, options_.relaxation_iterations).feasible) break;
     goals_ = constraint_.goals(region_);
     report_.on_surface = constraint_.move_to_goals(region_, goals_, options_.least_on_projection);
     ++report_.iterations;
@@ -144,7 +150,14 @@ void Parametrization::iterate() {
 
 ParametrizationReport Parametrization::run() {
   report_.initial_min_scaled_jacobian = measure();
-  if (untangle()) iterate();
+  if (untangle()) {
+    iterate(options_.energy, options_.max_iterations);
+    // An energy without a barrier may leave corners next to flat; one that has it mends them.
+    constexpr int kMending = 2;
+    if (!options_.energy.barrier() && measure() < options_.min_scaled_jacobian) {
+      iterate(InverseScaledJacobian{}, report_.iterations + kMending);
+    }
+  }
   report_.min_scaled_jacobian = measure();
   const std::vector<double>& sj = scaled_jacobians_;
   if (sj.empty()) return report_;
@@ -188,7 +201,8 @@ void validate(const ParametrizationOptions& o) {
   require(o.untangling_rounds >= 0, "untangling_rounds", o.untangling_rounds, ">= 0");
   require(o.min_scaled_jacobian >= -1 && o.min_scaled_jacobian < 1, "min_scaled_jacobian",
           o.min_scaled_jacobian, "[-1, 1)");
-  require(o.quality_goal >= 0 && o.quality_goal <= 1, "quality_goal", o.quality_goal, "[0, 1]");
+  require(o.quality_goal > 0 && o.quality_goal <= 1, "quality_goal", o.quality_goal, "(0, 1]");
+
   require(o.quality_weight_limit >= 1, "quality_weight_limit", o.quality_weight_limit, ">= 1");
   require(o.surface.weight > 0, "surface.weight", o.surface.weight, "> 0");
   require(o.surface.feature_angle_deg > 0 && o.surface.feature_angle_deg <= 180,

@@ -23,13 +23,16 @@
 namespace hexweft {
 
 struct ParametrizationOptions {
-  Energy energy = InverseScaledJacobian{};  ///< a barrier energy
+  Energy energy = InverseScaledJacobian{};  ///< one without a barrier is kept from inverting
   int max_iterations = 5;                   ///< > 0, each with new target shapes and a projection
   int relaxation_iterations = 10;           ///< > 0, L-BFGS steps in each
-  int untangling_rounds = 15;         ///< ≥ 0, each with a smaller ε; 0: an inverted start fails
-  double min_scaled_jacobian = 0;     ///< [-1, 1), below it the result is not valid
-  double quality_goal = 0.8;          ///< [0, 1], hexahedra of lower scaled Jacobian weigh more
-  double quality_weight_limit = 30;   ///< ≥ 1, the most one hexahedron may weigh
+  int untangling_rounds = 15;      ///< ≥ 0, each with a smaller ε; 0: an inverted start fails
+  double min_scaled_jacobian = 0;  ///< [-1, 1), below it the result is not valid
+  double quality_goal = 0.8;       ///< (0, 1], hexahedra below it do not weigh 1
+  /// Below the goal a hexahedron of scaled Jacobian SJ weighs (goal / SJ) to the power of this:
+  /// positive raises the least scaled Jacobian, negative the mean.
+  int quality_exponent = 2;
+  double quality_weight_limit = 30;   ///< ≥ 1, the most one hexahedron may weigh; 1 / the least
   double least_on_projection = 0.15;  ///< [-1, 1], no projection takes a scaled Jacobian below it
   double goal_weight = 10;            ///< > 0, of vertex goals; one hexahedron's distortion is 1
   SurfaceOptions surface = {};
@@ -60,7 +63,8 @@ struct ParametrizationReport {
 
 /// Moves the vertices all of whose cells are in the region; the others stay. Surface vertices slide
 /// on the reference's tangent planes and are projected back after each iteration, as far as nothing
-/// inverts. The start may hold inverted and degenerate cells, as right after a merge.
+/// inverts. What an energy without a barrier leaves below the least scaled Jacobian is mended with one
+/// that has it. The start may hold inverted and degenerate cells, as right after a merge.
 /// Writes points only, through mesh.set_point. Independent of the unit of length.
 /// \param region  live cells, each once
 /// \throws InputError on bad options or cells

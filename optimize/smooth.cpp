@@ -9,6 +9,7 @@
 #include "optimize/hausdorff.h"
 #include "optimize/partial_move.h"
 #include "optimize/region.h"
+#include "optimize/smoothing_passes.h"
 #include "optimize/surface_distance.h"
 #include "ovm/errors.h"
 #include "ovm/transaction.h"
@@ -42,7 +43,18 @@ Measure measure(const std::vector<double>& sj) {
   return m;
 }
 
-constexpr SurfaceDistanceOptions kSamples{.mesh_levels = 1, .reference_levels = 1};
+// What lies between the samples is looked at before a pass is kept.
+constexpr SurfaceDistanceOptions kSamples{
+    .mesh_levels = 1, .reference_levels = 1, .suspect_levels = 0};
+
+constexpr double kLeastGain = 5e-3, kMeanGain = 5e-4;  // of a whole-mesh pass worth its time
+
+/// What a pass must reach to be kept.
+struct Aim {
+  double floor;                  // of every hexahedron that moves, unless it was lower before
+  double least_gain, mean_gain;  // of the scaled Jacobian; one of them is enough
+  double room = 1;               // of the distance limit
+};
 
 class Smoother {
  public:
@@ -53,14 +65,18 @@ class Smoother {
         options_(options),
         distance_(mesh, reference, kSamples),
         cells_(all_cells(mesh)),
-        limit_(std::max(limit, distance_.distance())) {}
+        limit_(limit) {}
 
   SmoothingReport run();
 
  private:
   bool attempt(const std::vector<CellHandle>& cells, const ParametrizationOptions& options,
-               double floor, double least_gain, double mean_gain);
-  void relax_globally();
+               const Aim& aim);
+  bool keep_gain(const Region& before, const Eigen::Matrix3Xd& goal, const Aim& aim);
+  bool gains(const Measure& before, const Measure& now, std::size_t n_cells, const Aim& aim);
+  bool is_on_surface();
+  void relax_for_least();
+  void relax_for_mean();
   void relax_worst_cells();
   bool relax_round(CellHandle worst, double least_gain);
   bool stopped() const { return options_.stop.stop_requested(); }
@@ -75,55 +91,99 @@ class Smoother {
   SmoothingReport report_;
 };
 
-/// Parametrizes the cells and keeps of it what leaves none below `floor` and the surface in its
-/// limit; all is undone unless their least or their mean scaled Jacobian gains enough, the least does
-/// not fall, and the mean over the mesh stays above what it was at the start.
-bool Smoother::attempt(const std::vector<CellHandle>& cells, const ParametrizationOptions& options,
-                       double floor, double least_gain, double mean_gain) {
-  ++report_.trials;
-  Transaction trial(mesh_);
-  const Region region = make_region(mesh_, cells);
-  const Measure before = measure(scaled_jacobians(region.points, region.hexes));
-  parametrize(mesh_, cells, distance_.reference(), options);
-  if (!keep_what_fits(mesh_, region, distance_, {floor, limit_})) return false;
-  const Measure now = measure(quality(mesh_, cells));
-  const bool gains = now.least >= before.least + least_gain || now.mean >= before.mean + mean_gain;
-  const double mesh_mean = mean_ + (now.mean - before.mean) * static_cast<double>(cells.size()) /
+/// The least or the mean scaled Jacobian of the cells gains enough, the least
+/// does not fall, and the mean over the mesh stays above what it was at the
+/// start. Takes note of that mean.
+bool Smoother::gains(const Measure& before, const Measure& now, std::size_t n_cells,
+                     const Aim& aim) {
+  const double mesh_mean = mean_ + (now.mean - before.mean) * static_cast<double>(n_cells) /
                                        static_cast<double>(cells_.size());
+  const bool enough =
+      now.least >= before.least + aim.least_gain || now.mean >= before.mean + aim.mean_gain;
   const bool falls = now.least < before.least ||
                      (now.mean < before.mean && mesh_mean < report_.initial_mean_scaled_jacobian);
-  if (!gains || falls) {
-    distance_.rollback();
-    return false;
-  }
+  if (!enough || falls) return false;
   mean_ = mesh_mean;
+  return true;
+}
+
+/// Looks between the samples too, which only those that come near the limit need.
+bool Smoother::is_on_surface() {
+  constexpr double kSafe = 0.85, kSuspect = 0.6;
+  constexpr double kMargin = 0.95;  // hausdorff_distance() looks closer still at large triangles
+  return distance_.distance() <= kSafe * limit_ ||
+         distance_.change_is_within(kMargin * limit_, kSuspect);
+}
+
+/// Keeps of the move to `goal` what fits, if it gains. The distance is up to date if so, else as it
+/// was.
+bool Smoother::keep_gain(const Region& before, const Eigen::Matrix3Xd& goal, const Aim& aim) {
+  const Measure old = measure(scaled_jacobians(before.points, before.hexes));
+  const double mean = mean_;
+  for (const double room : {aim.room, 0.93 * aim.room, 0.85 * aim.room}) {
+    for (int v = 0; v < before.n_free; ++v) mesh_.set_point(before.vertices[v], goal.col(v));
+    if (!keep_what_fits(mesh_, before, distance_, {aim.floor, room * limit_})) return false;
+    const bool gained = gains(old, measure(quality(mesh_, before.cells)), before.cells.size(), aim);
+    if (gained && is_on_surface()) return true;
+    distance_.rollback();
+    mean_ = mean;
+    if (!gained) return false;
+  }
+  return false;
+}
+
+/// Parametrizes the cells; all is undone unless it gains.
+bool Smoother::attempt(const std::vector<CellHandle>& cells, const ParametrizationOptions& options,
+                       const Aim& aim) {
+  ++report_.trials;
+  Transaction trial(mesh_);
+  const Region before = make_region(mesh_, cells);
+  parametrize(mesh_, cells, distance_.reference(), options);
+  Eigen::Matrix3Xd goal(3, before.n_free);
+  for (int v = 0; v < before.n_free; ++v) goal.col(v) = mesh_.point(before.vertices[v]);
+  if (!keep_gain(before, goal, aim)) return false;
   distance_.commit();
   trial.commit();
   return true;
 }
 
-/// Whole-mesh passes, while they gain something. Where the one treatment of the surface gains
-/// nothing, the other is tried.
-void Smoother::relax_globally() {
-  constexpr double kLeastGain = 5e-3, kMeanGain = 5e-4;
-  ParametrizationOptions o = options_.parametrization;
-  bool failed = false;
-  for (int round = 0; round < options_.global_rounds && !stopped(); ++round) {
-    const double floor = measure(quality(mesh_, cells_)).least;
-    if (attempt(cells_, o, floor, kLeastGain, kMeanGain)) {
-      ++report_.accepted_global;
-      failed = false;
-      continue;
+/// Whole-mesh passes, while they gain something, which leave a part of the distance for the worst
+/// cells. Where one gains nothing, the other treatment of the surface is tried, with volumes as they
+/// are and all of the distance; and after that the options as they were given.
+void Smoother::relax_for_least() {
+  constexpr double kRoom = 0.8;
+  constexpr int kTries = 3;
+  int failed = 0;
+  for (int round = 0; round < options_.global_rounds && failed < kTries && !stopped(); ++round) {
+    const double least = measure(quality(mesh_, cells_)).least;
+    ParametrizationOptions o = options_.parametrization;
+    if (failed < 2) o = options_for_least(o, least);
+    if (failed == 1) {
+      const bool fit = o.surface.treatment == SurfaceTreatment::fit;
+      o.surface.treatment = fit ? SurfaceTreatment::project : SurfaceTreatment::fit;
+      o.target.volume_passes = 0;
     }
-    if (failed) break;
-    failed = true;
-    const bool fit = o.surface.treatment == SurfaceTreatment::fit;
-    o.surface.treatment = fit ? SurfaceTreatment::project : SurfaceTreatment::fit;
+    if (attempt(cells_, o, {least, kLeastGain, kMeanGain, failed > 0 ? 1 : kRoom})) {
+      ++report_.accepted_global;
+      failed = 0;
+    } else {
+      ++failed;
+    }
   }
 }
 
-/// One cell's neighborhoods, growing, first with its surface held as everywhere, then with a surface
-/// that gives way as far as the distance limit allows.
+void Smoother::relax_for_mean() {
+  const ParametrizationOptions o = options_for_mean(options_.parametrization);
+  for (int round = 0; round < options_.mean_rounds && !stopped(); ++round) {
+    const double least = measure(quality(mesh_, cells_)).least;
+    if (!attempt(cells_, o, {least, kLeastGain, kMeanGain})) break;
+    ++report_.accepted_global;
+  }
+}
+
+/// One cell's neighborhoods, growing, first with its surface held as
+/// everywhere, then with a surface that gives way as far as the distance limit
+/// allows.
 bool Smoother::relax_round(CellHandle worst, double least_gain) {
   struct Rung {
     int rings;
@@ -141,8 +201,9 @@ bool Smoother::relax_round(CellHandle worst, double least_gain) {
     moved_ = grow_cells(mesh_, seed, rung.rings);
     o.surface.weight = rung.surface_weight;
     o.least_on_projection = rung.least_on_projection;
-    const double floor = measure(quality(mesh_, moved_)).least;
-    if (attempt(moved_, o, floor + least_gain, least_gain, 1)) return true;
+    const double floor = measure(quality(mesh_, moved_)).least + least_gain;
+    if (!o.energy.barrier()) o.min_scaled_jacobian = std::clamp(floor, 0.0, 0.9);
+    if (attempt(moved_, o, {floor, least_gain, 1})) return true;
   }
   return false;
 }
@@ -178,8 +239,9 @@ SmoothingReport Smoother::run() {
   const Measure before = measure(quality(mesh_, cells_));
   report_.initial_min_scaled_jacobian = before.least;
   report_.initial_mean_scaled_jacobian = mean_ = before.mean;
-  relax_globally();
+  relax_for_least();
   relax_worst_cells();
+  relax_for_mean();
   const Measure now = measure(quality(mesh_, cells_));
   report_.min_scaled_jacobian = now.least;
   report_.mean_scaled_jacobian = now.mean;
@@ -187,7 +249,7 @@ SmoothingReport Smoother::run() {
 }
 
 SmoothingOptions untouched(SmoothingOptions options) {
-  options.global_rounds = options.local_trials = 0;
+  options.global_rounds = options.local_trials = options.mean_rounds = 0;
   return options;
 }
 
@@ -202,6 +264,7 @@ void validate(const SmoothingOptions& o) {
   };
   require(o.hausdorff_limit_rel > 0, "hausdorff_limit_rel", o.hausdorff_limit_rel, "> 0");
   require(o.global_rounds >= 0, "global_rounds", o.global_rounds, ">= 0");
+  require(o.mean_rounds >= 0, "mean_rounds", o.mean_rounds, ">= 0");
   require(o.local_trials >= 0, "local_trials", o.local_trials, ">= 0");
   require(o.enough_scaled_jacobian >= 0 && o.enough_scaled_jacobian <= 1, "enough_scaled_jacobian",
           o.enough_scaled_jacobian, "[0, 1]");
@@ -213,12 +276,13 @@ SmoothingReport smooth(HexMesh& mesh, const ReferenceSurface& reference,
   validate(options);
   if (mesh.n_cells() == 0) return {};
   const double before = hausdorff_distance(mesh, reference).ratio();
-  // The passes look at fewer samples than the final word; where that is over the limit, they start
-  // again with a little less room.
-  for (double room : {1.0, 0.8, 0.6}) {
+  // The passes do not look quite as closely as the last word; where that is
+  // over the limit, they start again with a little less room.
+  for (double room : {1.0, 0.9, 0.6}) {
     Transaction attempt(mesh);
-    const double limit = room * options.hausdorff_limit_rel * reference.bounding_box_diagonal();
-    SmoothingReport report = Smoother(mesh, reference, options, limit).run();
+    const double limit = std::max(before, room * options.hausdorff_limit_rel);
+    SmoothingReport report =
+        Smoother(mesh, reference, options, limit * reference.bounding_box_diagonal()).run();
     report.initial_hausdorff_rel = before;
     report.hausdorff_rel = hausdorff_distance(mesh, reference).ratio();
     if (report.hausdorff_rel > std::max(before, options.hausdorff_limit_rel)) continue;

@@ -12,8 +12,9 @@ namespace hexweft {
 
 struct SmoothingOptions {
   double hausdorff_limit_rel = 0.01;  ///< > 0, fraction of the reference's bounding-box diagonal
-  int global_rounds = 3;              ///< ≥ 0, passes over the whole mesh
-  int local_trials = 200;             ///< ≥ 0, passes over the neighborhood of a worst cell
+  int global_rounds = 3;   ///< ≥ 0, passes over the whole mesh for the least scaled Jacobian
+  int mean_rounds = 2;     ///< ≥ 0, passes over the whole mesh for the mean and even volumes
+  int local_trials = 200;  ///< ≥ 0, passes over the neighborhood of a worst cell
   double enough_scaled_jacobian =
       0.6;  ///< [0, 1], cells at least this good are not worked on one by one
   ParametrizationOptions parametrization = {.surface = {.treatment = SurfaceTreatment::fit}};
@@ -28,8 +29,9 @@ struct SmoothingReport {
   int accepted_global = 0, accepted_local = 0, trials = 0;
 };
 
-/// First the whole mesh is relaxed, then the neighborhoods of its worst cells, worst first. Of a pass
-/// is kept what lowers no hexahedron below the least scaled Jacobian (of the mesh; of the
+/// First the whole mesh is relaxed, then the neighborhoods of its worst cells, worst first, then the
+/// whole mesh for the mean. The default energy is taken in a sharper form over the whole mesh. Of a
+/// pass is kept what lowers no hexahedron below the least scaled Jacobian (of the mesh; of the
 /// neighborhood for a local one), and no part of the surface over the Hausdorff limit or over what
 /// the distance was if that is more; a pass that then gains nothing is undone. Ends when nothing
 /// gains. An inverted mesh is untangled if it can be.

@@ -197,6 +197,9 @@ std::string name_of_test(const testing::TestParamInfo<Energy>& i) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, EveryEnergy, testing::ValuesIn(all_energies()), name_of_test);
+INSTANTIATE_TEST_SUITE_P(Sharper, EveryEnergy,
+                         testing::Values(InverseScaledJacobian{.size = 1, .sharpness = 3},
+                                         InverseScaledJacobian{.size = 1, .sharpness = 4}));
 INSTANTIATE_TEST_SUITE_P(
     OfAUser, EveryEnergy,
     testing::Values(Energy(someone_else::InverseVolume{}),
