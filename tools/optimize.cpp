@@ -1,11 +1,11 @@
 // hexweft-optimize: better geometry, the same structure.
 #include <fmt/format.h>
 
-#include "optimize/energies/table.h"
 #include "optimize/hausdorff.h"
 #include "optimize/smooth.h"
 #include "ovm/quality.h"
 #include "tools/cli.h"
+#include "tools/energy_argument.h"
 #include "tools/progress_line.h"
 #include "tools/single_trial.h"
 #include "tools/surface_input.h"
@@ -21,12 +21,6 @@ struct Request {
   std::string surface, features = "auto";
   bool untangle = false;
 };
-
-std::vector<std::string> energy_names() {
-  std::vector<std::string> names;
-  for (const Energy& e : all_energies()) names.emplace_back(name(e));
-  return names;
-}
 
 // What --untangle does: the whole mesh at once, and again from where that ended, until nothing is
 // inverted or it gets no better.
@@ -56,9 +50,7 @@ Json to_json(const QualitySummary& q, double hausdorff_ratio) {
 
 void add_options(CLI::App& app, Request& request) {
   SmoothingOptions& o = request.options;
-  app.add_option("--energy", request.energy, "Distortion that is made small")
-      ->check(CLI::IsMember(energy_names()))
-      ->capture_default_str();
+  cli::add_energy_option(app, request.energy, "Distortion that is made small");
   app.add_option(
       "--surface", request.surface,
       std::string("Surface to stay on (default: the boundary of INPUT): ") + cli::kSurfaceHelp);
@@ -71,7 +63,12 @@ void add_options(CLI::App& app, Request& request) {
       "--untangle", request.untangle,
       "Only make inverted hexahedra valid, whatever the distance; a mesh without any comes "
       "back as it is");
-  app.add_option("--iterations", o.global_rounds, "Passes over the whole mesh at most")
+  app.add_option("--iterations", o.global_rounds,
+                 "Passes over the whole mesh for its worst hexahedra at most")
+      ->check(cli::in_range(0, 1e6))
+      ->capture_default_str();
+  app.add_option("--mean-iterations", o.mean_rounds,
+                 "The same for the average and even volumes, at the end")
       ->check(cli::in_range(0, 1e6))
       ->capture_default_str();
   app.add_option("--local-trials", o.local_trials,
@@ -92,28 +89,32 @@ int run(cli::Program& program, Request& request) {
   const ReferenceSurface surface = request.surface.empty()
                                        ? cli::boundary_of(mesh, features)
                                        : program.read_surface(request.surface, features);
-  const Json before =
-      to_json(summarize_quality(mesh, 0), hausdorff_distance(mesh, surface).ratio());
+  const QualitySummary before = summarize_quality(mesh, 0);
+  double hausdorff_before = 0, hausdorff_after = 0;
   Json report = {{"energy", request.energy}};
   {
     const cli::BusyLine busy(request.untangle ? "untangling" : "optimizing");
     if (request.untangle) {
+      hausdorff_before = hausdorff_distance(mesh, surface).ratio();
       untangle(mesh, surface, request.options);
+      hausdorff_after = hausdorff_distance(mesh, surface).ratio();
     } else {
       const SmoothingReport r = smooth(mesh, surface, request.options);
+      hausdorff_before = r.initial_hausdorff_rel;
+      hausdorff_after = r.hausdorff_rel;
       report["trials"] = r.trials;
       report["accepted"] = r.accepted_global + r.accepted_local;
     }
   }
-  const QualitySummary q = summarize_quality(mesh, 0);
-  const Json after = to_json(q, hausdorff_distance(mesh, surface).ratio());
-  report["before"] = before;
-  report["after"] = after;
+  const QualitySummary after = summarize_quality(mesh, 0);
+  report["before"] = to_json(before, hausdorff_before);
+  report["after"] = to_json(after, hausdorff_after);
   program.write_mesh(mesh);
   program.write_json(report);
-  program.say_text(cli::compare(before, after));
-  if (q.n_inverted == 0) return cli::kDone;
-  return program.fail(cli::kFailed, fmt::format("{} hexahedra are still inverted", q.n_inverted));
+  program.say_text(cli::compare(report["before"], report["after"]));
+  if (after.n_inverted == 0) return cli::kDone;
+  return program.fail(cli::kFailed,
+                      fmt::format("{} hexahedra are still inverted", after.n_inverted));
 }
 
 }  // namespace
