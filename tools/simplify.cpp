@@ -9,6 +9,7 @@
 #include "io/file.h"
 #include "tools/checkpoint_file.h"
 #include "tools/cli.h"
+#include "tools/energy_argument.h"
 #include "tools/progress_line.h"
 #include "tools/ranking_arguments.h"
 #include "tools/signal_watch.h"
@@ -21,6 +22,7 @@ namespace {
 struct Request {
   SimplifyOptions options;
   cli::RankingArguments ranking;
+  std::string energy = std::string(name(SimplifyOptions().parametrization.energy));
   std::string features = "auto";
   bool no_chords = false;
   std::optional<double> max_seconds, target_rate;
@@ -50,6 +52,7 @@ void add_options(CLI::App& app, Request& r) {
   app.add_option("--seconds", r.max_seconds,
                  "Begin nothing more after this long, the smoothing at the end neither");
   app.add_flag("--no-chords", r.no_chords, "Collapse sheets only");
+  cli::add_energy_option(app, r.energy, "Distortion that is made small, in steps and at the end");
   app.add_option("--features", r.features, cli::kFeaturesHelp)->capture_default_str();
   r.ranking.add_to(app);
   cli::add_filter_options(app, o);
@@ -83,6 +86,7 @@ void complete_options(Request& request) {
   SimplifyOptions& o = request.options;
   o.ranking = request.ranking.ranking();
   o.weights = request.ranking.weights();
+  o.parametrization.energy = make_energy(request.energy);
   o.features = cli::parse_features(request.features);
   o.chords = !request.no_chords;
   o.max_seconds = request.max_seconds;

@@ -92,6 +92,28 @@ TEST_F(OptimizeTool, FeaturesHoldTheEdgesOfABox) {
   }
 }
 
+TEST_F(OptimizeTool, EveryEnergyRunsInOptimizeAndInSimplify) {
+  ASSERT_EQ(run("hexweft-generate octree-like --resolution 7 -o in.vtk").exit_code, 0);
+  for (const char* energy : {"symmetric-dirichlet", "exponential-symmetric-dirichlet", "arap",
+                             "conformal-amips", "exponential-conformal-amips", "log-dirichlet",
+                             "hencky", "mean-ratio", "inverse-scaled-jacobian", "foldover-free"}) {
+    SCOPED_TRACE(energy);
+    const std::string option = std::string(" --json r.json --energy ") + energy;
+    const ToolRun optimized = run("hexweft-optimize in.vtk -o out.vtk --local-trials 5" + option);
+    ASSERT_EQ(optimized.exit_code, 0) << optimized.err;
+    const Json o = Json::parse(read_file(file("r.json")));
+    EXPECT_EQ(o["energy"], energy);
+    EXPECT_GE(o["after"]["min_scaled_jacobian"], o["before"]["min_scaled_jacobian"]);
+    const ToolRun simplified = run("hexweft-simplify in.vtk -o simple.vtk" + option);
+    ASSERT_EQ(simplified.exit_code, 0) << simplified.err;
+    const Json s = Json::parse(read_file(file("r.json")));
+    EXPECT_LT(s["after"]["components"], s["before"]["components"]);
+    EXPECT_LE(s["hausdorff_ratio"], 0.01);
+    EXPECT_GT(min_scaled_jacobian(read_hex_mesh(file("simple.vtk"))), 0);
+    EXPECT_EQ(run("hexweft-info simple.vtk").exit_code, 0);
+  }
+}
+
 TEST_F(OptimizeTool, RefusesWhatItCannotUse) {
   ASSERT_EQ(run("hexweft-generate grid -o in.vtk").exit_code, 0);
   for (const auto& [arguments, code] : {std::pair("in.vtk", 2),
