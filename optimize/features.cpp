@@ -8,6 +8,7 @@
 
 #include <Eigen/Geometry>
 
+#include "optimize/bent_edges.h"
 #include "ovm/errors.h"
 
 namespace hexweft {
@@ -18,39 +19,6 @@ constexpr double kDegree = std::numbers::pi / 180;
 // Voxel-based meshers leave steps on smooth parts that are bent this much here and there, but not
 // the lines they make on average.
 constexpr double kAutomaticAngle = 40 * kDegree, kAutomaticMean = 60 * kDegree;
-
-// An edge of the surface and how much it is bent.
-struct BentEdge {
-  std::array<int, 2> ends;  // ascending
-  double angle;             // rad; π at a border or where more than two triangles meet
-};
-
-std::vector<BentEdge> bent_edges(const Eigen::Matrix3Xd& points,
-                                 const std::vector<std::array<int, 3>>& triangles) {
-  std::vector<Eigen::Vector3d> normals;
-  std::vector<std::pair<std::array<int, 2>, int>> sides;  // an edge and a triangle at it
-  for (const auto& [a, b, c] : triangles) {
-    const auto triangle = static_cast<int>(normals.size());
-    const Eigen::Vector3d ab = points.col(b) - points.col(a), ac = points.col(c) - points.col(a);
-    normals.push_back(ab.cross(ac).normalized());
-    for (const auto& [from, to] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
-      if (from != to) sides.push_back({{std::min(from, to), std::max(from, to)}, triangle});
-    }
-  }
-  std::sort(sides.begin(), sides.end());
-  std::vector<BentEdge> edges;
-  for (std::size_t i = 0, next = 0; i < sides.size(); i = next) {
-    while (next < sides.size() && sides[next].first == sides[i].first) ++next;
-    double angle = std::numbers::pi;
-    if (next == i + 2) {
-      const Eigen::Vector3d &m = normals[sides[i].second], &n = normals[sides[i + 1].second];
-      // A triangle without area has no normal and says nothing.
-      angle = m.isZero() || n.isZero() ? 0 : std::atan2(m.cross(n).norm(), m.dot(n));
-    }
-    edges.push_back({sides[i].first, angle});
-  }
-  return edges;
-}
 
 struct FeatureChain {
   FeatureLine line;
