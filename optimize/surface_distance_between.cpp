@@ -8,7 +8,7 @@
 namespace hexweft {
 namespace {
 
-constexpr int kLevels = 2;  // 16 parts of a triangle of mean size, each with its corners
+constexpr int kLevels = 3;  // 64 parts of a triangle of mean size, each with its corners
 
 }  // namespace
 
@@ -42,14 +42,24 @@ bool SurfaceDistance::changed_triangles_are_within(double limit, double skip) {
         return std::sqrt(nearest.squared_distance);
       },
       limit, limit);
-  const auto& points = reference_.points();
-  for (std::size_t t = 0; t < samples_of_triangle_.size() && !farthest.done(); ++t) {
+  const auto& triangles = reference_.triangles();
+  // A side that moved can come nearest to, or leave, parts of the triangles beside these as well.
+  std::vector<char> near_change(reference_.points().cols(), 0);
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
     const TriangleSamples& own = samples_of_triangle_[t];
-    const auto& corners = reference_.triangles()[t];
+    const auto& corners = triangles[t];
     bool any = std::any_of(changed.begin() + own.first_centroid, changed.begin() + own.end,
                            [](char c) { return c != 0; });
     for (int i = 0; i < 3; ++i) any |= changed[corners[i]] || changed[own.edges[i]];
     if (!any) continue;
+    for (int v : corners) near_change[v] = 1;
+  }
+  const auto& points = reference_.points();
+  for (std::size_t t = 0; t < triangles.size() && !farthest.done(); ++t) {
+    const auto& corners = triangles[t];
+    if (std::none_of(corners.begin(), corners.end(), [&](int v) { return near_change[v] != 0; }))
+      continue;
+    const TriangleSamples& own = samples_of_triangle_[t];
     guess = nearest_side_.side(own.first_centroid);
     const Eigen::Vector3d a = points.col(corners[0]), b = points.col(corners[1]),
                           c = points.col(corners[2]);

@@ -42,11 +42,12 @@ Json to_json(const ValenceLimits& v) {
           {"max_angle_deg", v.max_angle_deg}};
 }
 
-Json to_json(const LastRound& r) {
+Json to_json(const BoldTrials& r) {
   return {{"wanted", r.wanted},
           {"max_angle_deg", r.max_angle_deg},
           {"min_scaled_jacobian", r.min_scaled_jacobian},
-          {"mean_scaled_jacobian", r.mean_scaled_jacobian}};
+          {"mean_scaled_jacobian", r.mean_scaled_jacobian},
+          {"splits_per_trial", r.splits_per_trial}};
 }
 
 Json to_json(const ParametrizationOptions& p) {
@@ -128,9 +129,10 @@ Json lasting_options(const SimplifyOptions& o) {
           {"target_hexahedra_rel", o.target_hexahedra_rel},
           {"rings", o.rings},
           {"give_up_factor", o.give_up_factor},
+          {"splits_per_trial", o.splits_per_trial},
           {"max_chord_deviation", o.max_chord_deviation},
           {"valence", to_json(o.valence)},
-          {"last_round", to_json(o.last_round)},
+          {"bold", to_json(o.bold)},
           {"features", static_cast<int>(o.features.mode)},
           {"feature_angle_deg", o.features.angle_deg},
           {"parametrization", to_json(o.parametrization)},

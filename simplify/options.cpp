@@ -23,15 +23,17 @@ void validate(const SimplifyOptions& o) {
          o.min_scaled_jacobian, "[0, 1)");
   expect(o.mean_scaled_jacobian >= 0 && o.mean_scaled_jacobian < 1, "mean_scaled_jacobian",
          o.mean_scaled_jacobian, "[0, 1)");
-  expect(o.last_round.min_scaled_jacobian >= 0 && o.last_round.min_scaled_jacobian < 1,
-         "last_round.min_scaled_jacobian", o.last_round.min_scaled_jacobian, "[0, 1)");
-  expect(o.last_round.mean_scaled_jacobian >= 0 && o.last_round.mean_scaled_jacobian < 1,
-         "last_round.mean_scaled_jacobian", o.last_round.mean_scaled_jacobian, "[0, 1)");
-  for (const double angle : {o.valence.max_angle_deg, o.last_round.max_angle_deg}) {
+  expect(o.bold.min_scaled_jacobian >= 0 && o.bold.min_scaled_jacobian < 1,
+         "bold.min_scaled_jacobian", o.bold.min_scaled_jacobian, "[0, 1)");
+  expect(o.bold.mean_scaled_jacobian >= 0 && o.bold.mean_scaled_jacobian < 1,
+         "bold.mean_scaled_jacobian", o.bold.mean_scaled_jacobian, "[0, 1)");
+  for (const double angle : {o.valence.max_angle_deg, o.bold.max_angle_deg}) {
     expect(angle > 0 && angle <= 360, "max_angle_deg", angle, "(0, 360]");
   }
   expect(o.target_hexahedra_rel > 0, "target_hexahedra_rel", o.target_hexahedra_rel, "> 0");
   expect(o.threads > 0, "threads", o.threads, "> 0");
+  expect(o.splits_per_trial >= 0, "splits_per_trial", o.splits_per_trial, ">= 0");
+  expect(o.bold.splits_per_trial >= 0, "bold.splits_per_trial", o.bold.splits_per_trial, ">= 0");
   expect(o.rings > 0, "rings", o.rings, "> 0");
   expect(o.smoothing_trials >= 0, "smoothing_trials", o.smoothing_trials, ">= 0");
   expect(o.give_up_factor >= 1, "give_up_factor", o.give_up_factor, ">= 1");

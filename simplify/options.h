@@ -15,13 +15,15 @@ namespace hexweft {
 
 struct RunState;  // checkpoint.h
 
-/// When nothing is left, a last round goes on where ValenceLimits::max_angle_deg stood in the way,
-/// with floors of its own: a boundary edge with a single cell costs quality.
-struct LastRound {
+/// Where no ordinary trial succeeds, bold ones are made: ValenceLimits::max_angle_deg does not hold,
+/// and sheets are split within the trial where the surface is left too far away. A boundary edge of
+/// a single cell costs quality: they have floors of their own.
+struct BoldTrials {
   bool wanted = true;
   double max_angle_deg = 360;          ///< as in ValenceLimits
   double min_scaled_jacobian = 0.3;    ///< as in SimplifyOptions
   double mean_scaled_jacobian = 0.85;  ///< as in SimplifyOptions
+  int splits_per_trial = 12;           ///< as in SimplifyOptions
 };
 
 /// When to stop simplifying and what to preserve.
@@ -41,9 +43,12 @@ struct SimplifyOptions {
   bool smooth = true;         ///< global smoothing at the end
   int smoothing_trials = 50;  ///< >= 0, passes over the neighbourhoods of the worst cells then
   double give_up_factor = 2;  ///< >= 1; half relaxed and so many limits away, a trial ends
+  /// >= 0, sheets that a collapse may split where it leaves the surface too far away, two a layer and
+  /// two more at most; H stays under 1.1 times the target, or what it was before the collapse
+  int splits_per_trial = 0;
   double max_chord_deviation = 0.9;  ///< > 0, D(c) / 3k of a chord that is tried
   ValenceLimits valence = {};
-  LastRound last_round = {};
+  BoldTrials bold = {};
   FeatureOptions features = {};  ///< sharp edges and corners of the input's surface that are held
   ParametrizationOptions parametrization = {.max_iterations = 4,
                                             .surface = {.treatment = SurfaceTreatment::fit}};

@@ -5,6 +5,7 @@
 #include "ovm/quality.h"
 #include "ovm/topology_check.h"
 #include "simplify/feature_targets.h"
+#include "simplify/region_relaxation.h"
 
 namespace hexweft {
 namespace {
@@ -35,96 +36,11 @@ Refusal check_topology_after(const HexMesh& mesh, std::span<const VertexHandle> 
   return is_clean(violations, Severity::degenerate) ? Refusal::none : Refusal::topology;
 }
 
-Refusal refusal_of(ParametrizationFailure failure) {
-  switch (failure) {
-    case ParametrizationFailure::none:
-      return Refusal::none;
-    case ParametrizationFailure::still_inverted:
-      return Refusal::inverted;
-    case ParametrizationFailure::low_quality:
-      return Refusal::quality;
-  }
-  return Refusal::inverted;
-}
-
 // Genus is kept by the Euler number and the count of boundary surfaces and parts.
 bool same_shape(const TopologySummary& a, const TopologySummary& b) {
   return a.n_parts == b.n_parts && a.n_boundary_components == b.n_boundary_components &&
          a.genus == b.genus;
 }
-
-// The parametrization of one collapse, in two parts, so that what ends far off the surface is given
-// up early. A step may lower the quality of its region to the floors, but where it was under them
-// already, not any further.
-class RegionRelaxation {
- public:
-  RegionRelaxation(TrialContext& context, std::span<const CellHandle> region,
-                   const CollapsePlan& plan, const Quality& old, const SimplifyOptions& options)
-      : context_(context),
-        region_(region),
-        touched_(region.begin(), region.end()),
-        options_(options),
-        least_(std::max(std::min(options.min_scaled_jacobian, old.least), 1e-3)),
-        mean_(std::min(options.mean_scaled_jacobian, old.mean)) {
-    touched_.insert(touched_.end(), plan.removed.begin(), plan.removed.end());
-  }
-
-  Refusal run() {
-    // Fitting asks for several closest points a quadrilateral; it matters in the end only.
-    const int all = options_.parametrization.max_iterations, first = std::min(1, all);
-    const Refusal early =
-        parametrize_region(first, SurfaceTreatment::project, kHalfway, 1 - kHalfwayMean);
-    if (early != Refusal::none) return early;
-    const double halfway = distance_at_most(options_.give_up_factor * context_.distance_limit);
-    if (halfway > options_.give_up_factor * context_.distance_limit) return Refusal::hausdorff;
-    const SurfaceTreatment wanted = options_.parametrization.surface.treatment;
-    Transaction second(context_.mesh);
-    const Refusal refusal = finish(std::max(1, all - first), wanted);
-    const bool was_near = refusal == Refusal::hausdorff && halfway <= context_.distance_limit;
-    if (!was_near || wanted == SurfaceTreatment::project) {
-      second.commit();
-      return refusal;
-    }
-    // Where sharp edges run across the quadrilaterals, fitting them does harm.
-    second.rollback();
-    return finish(std::max(1, all - first), SurfaceTreatment::project);
-  }
-
- private:
-  // What half a parametrization must have reached of the floors for the other half to be worth its
-  // time.
-  static constexpr double kHalfway = 0.5;
-  static constexpr double kHalfwayMean = 0.03;
-
-  Refusal parametrize_region(int iterations, SurfaceTreatment treatment, double share_of_least,
-                             double share_of_mean) {
-    const StageTimer timer(context_.clock, Stage::parametrization);
-    ParametrizationOptions p = options_.parametrization;
-    p.max_iterations = iterations;
-    p.min_scaled_jacobian = share_of_least * least_;
-    p.surface.treatment = treatment;
-    const ParametrizationReport report = parametrize(context_.mesh, region_, context_.reference, p);
-    if (!report.valid()) return refusal_of(report.failure);
-    return report.mean_scaled_jacobian < share_of_mean * mean_ ? Refusal::quality : Refusal::none;
-  }
-  Refusal finish(int iterations, SurfaceTreatment treatment) {
-    const Refusal refusal = parametrize_region(iterations, treatment, 1, 1);
-    if (refusal != Refusal::none) return refusal;
-    return stays_on_surface(context_, touched_) ? Refusal::none : Refusal::hausdorff;
-  }
-  double distance_at_most(double limit) {
-    const StageTimer timer(context_.clock, Stage::distance);
-    const double d = context_.distance.after_change(context_.mesh, touched_, limit);
-    context_.distance.rollback();
-    return d;
-  }
-
-  TrialContext& context_;
-  std::span<const CellHandle> region_;
-  std::vector<CellHandle> touched_;
-  const SimplifyOptions& options_;
-  double least_, mean_;  // floors
-};
 
 // What takes a look at the whole mesh comes last: it costs more than most refusals took, and hardly
 // ever finds anything. A hole that moved from one part to another shows only here.
@@ -178,14 +94,18 @@ bool stays_on_surface(TrialContext& context, std::span<const CellHandle> touched
   return false;
 }
 
+std::pair<HalfFaceHandle, double> farthest_side(const SurfaceDistance& distance) {
+  const std::vector<double> by_side = distance.distance_by_halfface();
+  const auto worst = std::max_element(by_side.begin(), by_side.end());
+  return {HalfFaceHandle(static_cast<int>(worst - by_side.begin())), *worst};
+}
+
 bool relieve_farthest(TrialContext& context, const SimplifyOptions& options) {
   constexpr double kCloseToLimit = 0.7;
   const double before = context.distance.distance();
   if (before < kCloseToLimit * context.distance_limit) return false;
   HexMesh& mesh = context.mesh;
-  const std::vector<double> by_side = context.distance.distance_by_halfface();
-  const auto worst = std::max_element(by_side.begin(), by_side.end());
-  const auto side = mesh.vertices(HalfFaceHandle(static_cast<int>(worst - by_side.begin())));
+  const auto side = mesh.vertices(farthest_side(context.distance).first);
   const std::vector<CellHandle> region = cells_around(mesh, side, options.rings);
   const Quality old = measure_quality(mesh, region);
   ParametrizationOptions p = options.parametrization;
@@ -252,8 +172,7 @@ TrialResult try_collapse(TrialContext& context, const BaseComplex& bc, const Col
   result.refusal = check_topology_after(mesh, left, euler);
   if (!result.accepted()) return result;
 
-  const std::vector<CellHandle> region = cells_around(mesh, left, options.rings * plan.width);
-  result.refusal = RegionRelaxation(context, region, plan, old, options).run();
+  result.refusal = relax_region(context, plan, left, old, options);
   if (!result.accepted()) return result;
   result.refusal = check_structure(context, bc, result.base_complex);
   if (!result.accepted()) {
@@ -262,7 +181,6 @@ TrialResult try_collapse(TrialContext& context, const BaseComplex& bc, const Col
     return result;
   }
   commit(context, trial);
-  result.region = region;
   return result;
 }
 

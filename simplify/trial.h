@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "optimize/feature_assignment.h"
@@ -21,9 +22,11 @@ struct TrialContext {
   HexMesh& mesh;
   const ReferenceSurface& reference;
   SurfaceDistance& distance;
-  TopologySummary shape;        ///< of the input: genus and parts that every state must have
-  double distance_limit;        ///< model units, at the sampling of `distance`
-  double final_limit;           ///< model units, at full sampling
+  TopologySummary shape;  ///< of the input: genus and parts that every state must have
+  double distance_limit;  ///< model units, at the sampling of `distance`
+  double final_limit;     ///< model units, at full sampling
+  /// Up to so many cells trials may split sheets, and up to what there was before the collapse.
+  int most_cells = 0;
   StageClock* clock = nullptr;  ///< told of the stages of a trial, if any
   /// Features of the mesh's vertices, where they have been asked for since it changed last.
   std::optional<std::vector<FeatureLabel>> labels = {};
@@ -37,8 +40,7 @@ Quality measure_quality(const HexMesh& mesh, std::span<const CellHandle> cells);
 
 struct TrialResult {
   Refusal refusal = Refusal::none;
-  BaseComplex base_complex;        ///< of the new mesh if accepted, else empty
-  std::vector<CellHandle> region;  ///< the cells that moved, if accepted
+  BaseComplex base_complex;  ///< of the new mesh if accepted, else empty
   bool accepted() const { return refusal == Refusal::none; }
 };
 
@@ -53,6 +55,10 @@ void commit(TrialContext& context, Transaction& change);
 /// Brings the distance up to the mesh after a change of these cells, dead or alive, and checks it
 /// against the limits; where it is close, at full sampling of what changed. Over one, the distance is rolled back.
 bool stays_on_surface(TrialContext& context, std::span<const CellHandle> touched);
+
+/// The boundary side that is farthest from the surface or has the farthest sample of it nearest, and
+/// how far that is, model units.
+std::pair<HalfFaceHandle, double> farthest_side(const SurfaceDistance& distance);
 
 /// Relaxes round the place farthest from the surface if that is close to the limit: later trials there
 /// would fail for it, whatever they do. Kept only if it brings the distance down.

@@ -52,6 +52,9 @@ void add_options(CLI::App& app, Request& r) {
   app.add_option("--seconds", r.max_seconds,
                  "Begin nothing more after this long, the smoothing at the end neither");
   app.add_flag("--no-chords", r.no_chords, "Collapse sheets only");
+  app.add_flag(
+      "!--no-bold-trials", o.bold.wanted,
+      "Do without the bold trials, which may take away layers under the surface and split sheets");
   cli::add_energy_option(app, r.energy, "Distortion that is made small, in steps and at the end");
   app.add_option("--features", r.features, cli::kFeaturesHelp)->capture_default_str();
   r.ranking.add_to(app);

@@ -24,12 +24,19 @@ constexpr double kMostCells = 1.1;
 // A verified copy of the mesh is kept whenever the components have fallen by this factor.
 constexpr double kVerifyEvery = 0.5;
 
+SimplifyOptions bold_options(SimplifyOptions options) {
+  options.valence.max_angle_deg = options.bold.max_angle_deg;
+  options.min_scaled_jacobian = options.bold.min_scaled_jacobian;
+  options.mean_scaled_jacobian = options.bold.mean_scaled_jacobian;
+  options.splits_per_trial = options.bold.splits_per_trial;
+  return options;
+}
+
 }  // namespace
 
 Run::Run(HexMesh& mesh, const SimplifyOptions& options)
     : mesh_(mesh),
       options_(options),
-      trial_options_(options),
       start_(Clock::now()),
       clock_(Stage::preparation),
       reference_(make_reference_surface(mesh, kNormalAngle, options.features)),
@@ -40,8 +47,11 @@ Run::Run(HexMesh& mesh, const SimplifyOptions& options)
                summarize_topology(mesh),
                kLoopShare * options.hausdorff_limit_rel * reference_.bounding_box_diagonal(),
                options.hausdorff_limit_rel * reference_.bounding_box_diagonal(),
+               static_cast<int>(kMostCells * options.target_hexahedra_rel * mesh.n_cells()),
                &clock_},
       bc_(extract_base_complex(mesh)),
+      careful_{options, {}},
+      bold_{bold_options(options), {}},
       last_checkpoint_(start_) {
   if (bc_.irregular > 0) {
     throw InputError(fmt::format("{} regions of the base complex are no cuboids", bc_.irregular));
@@ -55,7 +65,6 @@ SimplifyReport Run::run() {
   clock_.back_to(Stage::other);
   observe({.what = StepKind::start});
   loop();
-  last_round();
   if (n_collapses() == 0 && step_ > 0) give_back_input();
   while (!is_cut_short() && is_short_of_cells(kRefineBelow) && refine(0)) {
   }
@@ -75,24 +84,11 @@ void Run::loop() {
     for (int i = 0; i < kSplitsAtOnce && is_short_of_cells(kRefineBelow); ++i) {
       if (!refine(kLongAcross)) break;
     }
-    if (!collapse_one(true) && !refine(long_enough, kMostCells) && !collapse_one(false)) break;
+    if (collapse_one(careful_, true) || collapse_one(bold_, true)) continue;
+    if (!refine(long_enough, kMostCells) && !collapse_one(careful_, false) &&
+        !collapse_one(bold_, false))
+      break;
   }
-}
-
-// Once nothing is left, layers under the surface may go, as long as the elements stay good.
-void Run::last_round() {
-  const auto by_angle = static_cast<int>(Refusal::angle);
-  if (report_.sheets.refused[by_angle] + report_.chords.refused[by_angle] == 0) return;
-  if (!options_.last_round.wanted || is_cut_short() ||
-      report_.stopped == StopReason::target_reached)
-    return;
-  trial_options_.valence.max_angle_deg = options_.last_round.max_angle_deg;
-  trial_options_.min_scaled_jacobian = options_.last_round.min_scaled_jacobian;
-  trial_options_.mean_scaled_jacobian = options_.last_round.mean_scaled_jacobian;
-  memory_.forget_all();
-  failed_in_a_row_ = 0;
-  report_.stopped = StopReason::nothing_left;
-  loop();
 }
 
 bool Run::is_cut_short() {
@@ -121,8 +117,9 @@ bool Run::should_stop() {
   return true;
 }
 
-// Tries candidates in order until one is accepted. A patient round leaves out what failed lately.
-bool Run::collapse_one(bool patient) {
+// Tries candidates in order until one is accepted. A patient look leaves out what failed lately.
+bool Run::collapse_one(Manner& manner, bool patient) {
+  if (&manner == &bold_ && !options_.bold.wanted) return false;
   if (!bc_of_this_mesh_) {
     const auto extracting = timer(Stage::base_complex);
     bc_ = extract_base_complex(mesh_);
@@ -132,10 +129,10 @@ bool Run::collapse_one(bool patient) {
     const auto ranking = timer(Stage::ranking);
     return make_queues(mesh_, bc_, options_, options_.ranking);
   }();
-  return collapse_sheet(q, patient) || collapse_chord(q, patient);
+  return collapse_sheet(q, manner, patient) || collapse_chord(q, manner, patient);
 }
 
-bool Run::collapse_sheet(const CandidateQueues& q, bool patient) {
+bool Run::collapse_sheet(const CandidateQueues& q, Manner& manner, bool patient) {
   for (const Candidate& c : q.sheet_queue) {
     if (should_stop()) return true;
     const Sheet& sheet = q.sheets[c.index];
@@ -147,12 +144,12 @@ bool Run::collapse_sheet(const CandidateQueues& q, bool patient) {
                                    .kind = name(sheet.kind),
                                    .width = plan.width,
                                    .sheet_terms = q.sheet_terms[c.index]};
-    if (attempt(plan, report_.sheets, step, patient)) return true;
+    if (attempt(plan, report_.sheets, step, manner, patient)) return true;
   }
   return false;
 }
 
-bool Run::collapse_chord(const CandidateQueues& q, bool patient) {
+bool Run::collapse_chord(const CandidateQueues& q, Manner& manner, bool patient) {
   for (const Candidate& c : q.chord_queue) {
     if (should_stop()) return true;
     const Chord& chord = q.chords[c.index];
@@ -165,27 +162,27 @@ bool Run::collapse_chord(const CandidateQueues& q, bool patient) {
                                    .kind = chord.closed ? "closed" : "open",
                                    .width = plan.width,
                                    .chord_terms = terms};
-    if (attempt(plan, report_.chords, step, patient)) return true;
+    if (attempt(plan, report_.chords, step, manner, patient)) return true;
   }
   return false;
 }
 
 bool Run::attempt(const CollapsePlan& plan, TrialCounts& counts, SimplifyProgress step,
-                  bool patient) {
+                  Manner& manner, bool patient) {
   const std::size_t key = FailureMemory::key(plan);
-  if (memory_.should_wait(key, step_, patient)) {
+  if (manner.memory.should_wait(key, step_, patient)) {
     ++counts.waited;
     return false;
   }
   const double begun = seconds();
   TrialResult result = [&] {
     const auto trial = timer(Stage::trial);
-    return try_collapse(context_, bc_, plan, trial_options_);
+    return try_collapse(context_, bc_, plan, manner.options);
   }();
   counts.seconds[static_cast<int>(result.refusal)] += seconds() - begun;
   if (!result.accepted()) {
     ++counts.refused[static_cast<int>(result.refusal)];
-    memory_.failed(key, step_);
+    manner.memory.failed(key, step_);
     failed_in_a_row_ += is_geometric(result.refusal);
     return false;
   }

@@ -23,13 +23,19 @@ class Run {
  private:
   using Clock = std::chrono::steady_clock;
 
+  /// How trials are made, and which have failed so.
+  struct Manner {
+    SimplifyOptions options;
+    FailureMemory memory;
+  };
+
   // ---- The loop (run.cpp) ----
   void loop();
-  void last_round();
-  bool collapse_one(bool patient);
-  bool collapse_sheet(const CandidateQueues& q, bool patient);
-  bool collapse_chord(const CandidateQueues& q, bool patient);
-  bool attempt(const CollapsePlan& plan, TrialCounts& counts, SimplifyProgress step, bool patient);
+  bool collapse_one(Manner& manner, bool patient);
+  bool collapse_sheet(const CandidateQueues& q, Manner& manner, bool patient);
+  bool collapse_chord(const CandidateQueues& q, Manner& manner, bool patient);
+  bool attempt(const CollapsePlan& plan, TrialCounts& counts, SimplifyProgress step, Manner& manner,
+               bool patient);
   void accept(BaseComplex bc, const SimplifyProgress& step);
   void relieve();
   bool refine(double min_length_rel, double most_cells_rel = 1);
@@ -60,7 +66,6 @@ class Run {
 
   HexMesh& mesh_;
   const SimplifyOptions& options_;
-  SimplifyOptions trial_options_;  // those of the round at hand
   Clock::time_point start_;
   StageClock clock_;
   ReferenceSurface reference_;
@@ -69,7 +74,7 @@ class Run {
   BaseComplex bc_;
   bool bc_of_this_mesh_ =
       true;  // else of the mesh before splits, which leave the components as they are
-  FailureMemory memory_;
+  Manner careful_, bold_;
   std::vector<EdgeHandle> not_refinable_;  // lowest edges of sheets whose split failed on this mesh
   SimplifyReport report_;
   HexMesh verified_;  // the last mesh that may be written; at first the input

@@ -166,7 +166,8 @@ void Run::replace_mesh(const HexMesh& mesh) {
   bc_ = extract_base_complex(mesh_);
   bc_of_this_mesh_ = true;
   distance_ = SurfaceDistance(mesh_, reference_);
-  memory_.forget_all();
+  careful_.memory.forget_all();
+  bold_.memory.forget_all();
   not_refinable_.clear();
 }
 

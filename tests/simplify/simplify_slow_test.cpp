@@ -46,19 +46,19 @@ TEST(SimplifySlow, WhatWasCollapsedIsNotLostInTheLastCheck) {
   EXPECT_LT(report.after.components, report.before.components);
 }
 
-TEST(SimplifySlow, LastRoundTakesLayersUnderTheSurface) {
+TEST(SimplifySlow, BoldTrialsTakesLayersUnderTheSurface) {
   const HexMesh input = make_solid("stepped-shaft", 20);
   std::array<SimplifyReport, 2> reports;
   for (int i = 0; i < 2; ++i) {
     HexMesh mesh = input;
     SimplifyOptions options;
-    options.last_round.wanted = i == 1;
+    options.bold.wanted = i == 1;
     reports[i] = simplify(mesh, options);
     expect_good_output(input, mesh, reports[i]);
   }
   EXPECT_LT(reports[1].after.components, reports[0].after.components);
   EXPECT_GE(reports[1].after.min_scaled_jacobian,
-            std::min(LastRound().min_scaled_jacobian, reports[0].after.min_scaled_jacobian));
+            std::min(BoldTrials().min_scaled_jacobian, reports[0].after.min_scaled_jacobian));
 }
 
 TEST(SimplifySlow, TorusKeepsGenusOne) {

@@ -73,6 +73,21 @@ TEST_F(SimplifyTool, SameInputSameBytesWhateverTheThreads) {
   EXPECT_EQ(read_file(file("one.vtk")), read_file(file("two.vtk")));
 }
 
+// The filters are there to be moved.
+TEST_F(SimplifyTool, AngleFilterAndBoldTrialsAreOptions) {
+  ASSERT_EQ(run("hexweft-generate octree-like --resolution 7 -o in.vtk").exit_code, 0);
+  const auto refused_by_angle = [&](const std::string& options) {
+    const ToolRun result =
+        run("hexweft-simplify in.vtk -o out.vtk --json report.json --no-bold-trials " + options);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    const auto refused = nlohmann::json::parse(read_file(file("report.json")))["sheets"]["refused"];
+    return refused.value("angle", 0);
+  };
+  EXPECT_GT(refused_by_angle("--max-boundary-angle 90"), 0);
+  EXPECT_EQ(refused_by_angle("--max-boundary-angle 360"), 0);
+  EXPECT_EQ(run("hexweft-simplify in.vtk -o out.vtk --max-boundary-angle 0").exit_code, 2);
+}
+
 TEST_F(SimplifyTool, InterruptedItWritesAValidMesh) {
   ASSERT_EQ(run("hexweft-generate octree-like --shape blob --resolution 20 -o in.vtk").exit_code,
             0);

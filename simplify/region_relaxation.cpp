@@ -1,0 +1,175 @@
+#include "simplify/region_relaxation.h"
+
+#include <algorithm>
+
+#include "ovm/dual.h"
+#include "ovm/edit/split_sheet.h"
+
+namespace hexweft {
+namespace {
+
+Refusal refusal_of(ParametrizationFailure failure) {
+  switch (failure) {
+    case ParametrizationFailure::none:
+      return Refusal::none;
+    case ParametrizationFailure::still_inverted:
+      return Refusal::inverted;
+    case ParametrizationFailure::low_quality:
+      return Refusal::quality;
+  }
+  return Refusal::inverted;
+}
+
+EdgeHandle longest_edge(const HexMesh& mesh, HalfFaceHandle side) {
+  const auto length = [&](EdgeHandle e) {
+    const auto [a, b] = mesh.vertices(e);
+    return (mesh.point(a) - mesh.point(b)).norm();
+  };
+  const auto edges = mesh.edges(side);
+  return *std::max_element(edges.begin(), edges.end(),
+                           [&](EdgeHandle a, EdgeHandle b) { return length(a) < length(b); });
+}
+
+class RegionRelaxation {
+ public:
+  RegionRelaxation(TrialContext& context, const CollapsePlan& plan,
+                   std::span<const VertexHandle> merged, const Quality& old,
+                   const SimplifyOptions& options)
+      : context_(context),
+        options_(options),
+        width_(plan.width),
+        most_cells_(std::max(context.mesh.n_cells() + static_cast<int>(plan.removed.size()),
+                             context.most_cells)),
+        seeds_(merged.begin(), merged.end()),
+        region_(cells_around(context.mesh, merged, options.rings * plan.width)),
+        touched_(region_),
+        least_(std::max(std::min(options.min_scaled_jacobian, old.least), 1e-3)),
+        mean_(std::min(options.mean_scaled_jacobian, old.mean)) {
+    touched_.insert(touched_.end(), plan.removed.begin(), plan.removed.end());
+  }
+
+  Refusal run() {
+    const Refusal refusal = relax();
+    if (refusal != Refusal::hausdorff || options_.splits_per_trial == 0) return refusal;
+    return split_until_near() ? Refusal::none : refusal;
+  }
+
+ private:
+  // What half a parametrization must have reached of the floors for the other half to be worth its
+  // time.
+  static constexpr double kHalfway = 0.5;
+  static constexpr double kHalfwayMean = 0.03;
+
+  // In two parts, so that what ends far off the surface is given up early.
+  Refusal relax() {
+    // Fitting asks for several closest points a quadrilateral; it matters in the end only.
+    const int all = options_.parametrization.max_iterations, first = std::min(1, all);
+    const Refusal early = move(first, SurfaceTreatment::project, kHalfway, 1 - kHalfwayMean);
+    if (early != Refusal::none) return early;
+    const double far = options_.give_up_factor * context_.distance_limit;
+    const double halfway = distance(far);
+    if (halfway > far) return Refusal::hausdorff;
+    const SurfaceTreatment wanted = options_.parametrization.surface.treatment;
+    Transaction second(context_.mesh);
+    const Refusal refusal = finish(std::max(1, all - first), wanted);
+    const bool was_near = refusal == Refusal::hausdorff && halfway <= context_.distance_limit;
+    if (!was_near || wanted == SurfaceTreatment::project) {
+      second.commit();
+      return refusal;
+    }
+    // Where sharp edges run across the quadrilaterals, fitting them does harm.
+    second.rollback();
+    return finish(std::max(1, all - first), SurfaceTreatment::project);
+  }
+
+  // A collapse leaves the cells beside it long, and a long side strays from a curved surface: its
+  // sheet is split across, which adds no component, as long as that helps and there is room for
+  // the cells.
+  bool split_until_near() {
+    constexpr double kFar = 4;  // of the limit: hopeless
+    constexpr int kSlow = 3;    // splits that need not help at once
+    HexMesh& mesh = context_.mesh;
+    double last = 0;  // distance, before the last split
+    const int most = std::min(options_.splits_per_trial, 2 * width_ + 2);
+    for (int i = 0; i < most; ++i) {
+      const auto [side, d] = farthest();
+      if (d > kFar * context_.distance_limit || (i >= kSlow && d > last)) return false;
+      last = d;
+      const DualSheet sheet = dual_sheet(mesh, longest_edge(mesh, side));
+      if (mesh.n_cells() + static_cast<int>(sheet.crossings.size()) > most_cells_) return false;
+      split(sheet);
+      switch (finish(options_.parametrization.max_iterations,
+                     options_.parametrization.surface.treatment)) {
+        case Refusal::none:
+          return true;
+        case Refusal::hausdorff:
+          continue;
+        default:
+          return false;
+      }
+    }
+    return false;
+  }
+
+  void split(const DualSheet& sheet) {
+    const SheetSplit split = split_sheet(context_.mesh, sheet);
+    for (const SplitVertex& v : split.vertices) seeds_.push_back(v.vertex);
+    region_ = cells_around(context_.mesh, seeds_, options_.rings);
+    touched_.insert(touched_.end(), split.removed.begin(), split.removed.end());
+    touched_.insert(touched_.end(), region_.begin(), region_.end());
+    std::sort(touched_.begin(), touched_.end());
+    touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
+  }
+
+  Refusal move(int iterations, SurfaceTreatment treatment, double share_of_least,
+               double share_of_mean) {
+    const StageTimer timer(context_.clock, Stage::parametrization);
+    ParametrizationOptions p = options_.parametrization;
+    p.max_iterations = iterations;
+    p.min_scaled_jacobian = share_of_least * least_;
+    p.surface.treatment = treatment;
+    const ParametrizationReport report = parametrize(context_.mesh, region_, context_.reference, p);
+    if (!report.valid()) return refusal_of(report.failure);
+    return report.mean_scaled_jacobian < share_of_mean * mean_ ? Refusal::quality : Refusal::none;
+  }
+
+  Refusal finish(int iterations, SurfaceTreatment treatment) {
+    const Refusal refusal = move(iterations, treatment, 1, 1);
+    if (refusal != Refusal::none) return refusal;
+    return stays_on_surface(context_, touched_) ? Refusal::none : Refusal::hausdorff;
+  }
+
+  double distance(double limit) {
+    const StageTimer timer(context_.clock, Stage::distance);
+    const double d = context_.distance.after_change(context_.mesh, touched_, limit);
+    context_.distance.rollback();
+    return d;
+  }
+
+  std::pair<HalfFaceHandle, double> farthest() {
+    const StageTimer timer(context_.clock, Stage::distance);
+    context_.distance.after_change(context_.mesh, touched_);
+    const auto found = farthest_side(context_.distance);
+    context_.distance.rollback();
+    return found;
+  }
+
+  TrialContext& context_;
+  const SimplifyOptions& options_;
+  int width_;                        // of what was collapsed, layers
+  int most_cells_;                   // that the mesh may have
+  std::vector<VertexHandle> seeds_;  // of the region
+  std::vector<CellHandle> region_;   // moves
+  std::vector<CellHandle> touched_;  // moved, or gone
+  double least_, mean_;              // floors of the scaled Jacobian
+};
+
+}  // namespace
+
+Refusal relax_region(TrialContext& context, const CollapsePlan& plan,
+                     std::span<const VertexHandle> merged, const Quality& old,
+                     const SimplifyOptions& options) {
+  return RegionRelaxation(context, plan, merged, old, options).run();
+}
+
+}  // namespace hexweft

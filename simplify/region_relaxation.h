@@ -1,0 +1,25 @@
+/// \file
+/// The geometry of one collapse, after the edit: relaxing what lies round it until the elements are
+/// good and the surface is met, or it is clear that they will not be.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "simplify/trial.h"
+
+namespace hexweft {
+
+/// Parametrizes the cells round the merged vertices within the open transaction of a trial. A step
+/// may lower the quality of its region to the floors of the options, but where it was under them
+/// already, not any further. Where only the distance is too large and
+/// SimplifyOptions::splits_per_trial allows it, sheets are split across the place that is farthest.
+/// The distance of the context is then that of the new mesh, to be committed or rolled back; on a
+/// refusal it is as before.
+/// \param merged  the vertices that are left of those merged
+/// \param old     quality of the region before the edit
+Refusal relax_region(TrialContext& context, const CollapsePlan& plan,
+                     std::span<const VertexHandle> merged, const Quality& old,
+                     const SimplifyOptions& options);
+
+}  // namespace hexweft
