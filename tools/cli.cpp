@@ -122,6 +122,13 @@ void Program::check_paths() const {
   if (wants_json()) check_writable(json_path_);
 }
 
+void Program::expect_apart(const std::string& option, const std::string& path) const {
+  for (const std::string& other : {input_path_, output_path_, json_path_}) {
+    if (!is_same_file(path, other)) continue;
+    throw InputError(option + " = " + path + ", expected another file than INPUT and the outputs");
+  }
+}
+
 int Program::run(int argc, char** argv, const std::function<int()>& body) {
   try {
     app_.parse(argc, argv);

@@ -132,6 +132,16 @@ nlohmann::ordered_json last_line(const SimplifyReport& r) {
           {"seconds", r.seconds}};
 }
 
+// What is written on the way takes the place of no other file of the run.
+void check_files(const cli::Program& program, const Request& request) {
+  program.expect_apart("--log", request.log);
+  program.expect_apart("--checkpoint", request.checkpoint);
+  if (cli::is_same_file(request.log, request.checkpoint) ||
+      cli::is_same_file(request.log, request.resume)) {
+    throw InputError("--log = " + request.log + ", expected another file than the checkpoint");
+  }
+}
+
 SimplifyReport simplify_as_asked(cli::Program& program, Request& request, HexMesh& mesh) {
   SimplifyOptions& o = request.options;
   std::optional<Checkpoint> from;
@@ -160,6 +170,7 @@ SimplifyReport simplify_as_asked(cli::Program& program, Request& request, HexMes
 
 int run(cli::Program& program, Request& request) {
   complete_options(request);
+  check_files(program, request);
   HexMesh mesh = program.read_mesh();
   std::stop_source interrupt;
   const cli::SignalWatch watch(interrupt);

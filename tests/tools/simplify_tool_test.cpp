@@ -209,7 +209,8 @@ TEST_F(SimplifyTool, RefusesWhatItCannotUse) {
        {"grid.vtk", "grid.vtk -o out.vtk --hausdorff 2", "grid.vtk -o out.vtk --rate -1",
         "grid.vtk -o out.vtk --preset cube", "grid.vtk -o out.vtk --ranking height",
         "grid.vtk -o out.vtk --features sharp", "grid.vtk -o out.vtk --beta -1",
-        "grid.vtk -o out.vtk --threads 0"}) {
+        "grid.vtk -o out.vtk --log grid.vtk", "grid.vtk -o out.vtk --checkpoint ./out.vtk",
+        "grid.vtk -o out.vtk --log a --checkpoint a", "grid.vtk -o out.vtk --threads 0"}) {
     SCOPED_TRACE(arguments);
     const ToolRun result = run("hexweft-simplify " + arguments);
     EXPECT_EQ(result.exit_code, 2);
