@@ -28,6 +28,7 @@ class QuadGrid {
   void remove(int id);
   bool contains(int id) const { return id < static_cast<int>(quads_.size()) && quads_[id].present; }
   const QuadPoints& points(int id) const { return quads_[id].points; }
+  const Eigen::Vector3d& centre(int id) const { return quads_[id].centre; }
 
   struct Nearest {
     double squared_distance;  ///< infinite if the grid is empty

@@ -239,12 +239,14 @@ double SurfaceDistance::after_change(const HexMesh& mesh, std::span<const CellHa
 }
 
 double SurfaceDistance::update(const HexMesh& mesh, const std::vector<int>& changed, double limit) {
+  too_far_at_.reset();
   VertexAndEdgeCache cache;
   for (int side : changed) {
     if (!grid_.contains(side)) continue;
     forward_[side] = forward_distance(mesh, side, limit, cache);
     if (forward_[side] > limit) {
       given_up_ = true;
+      too_far_at_ = grid_.centre(side);
       return forward_[side];
     }
   }
@@ -267,6 +269,7 @@ double SurfaceDistance::update_samples(const std::vector<int>& changed, double l
     backward_[sample] = std::sqrt(nearest.squared_distance);
     if (backward_[sample] > limit) {
       given_up_ = true;
+      too_far_at_ = samples_[sample];
       return backward_[sample];
     }
   }

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -62,6 +63,9 @@ class SurfaceDistance {
   /// \param skip_rel  sides and triangles all of whose samples are closer than this, in limits, are
   ///                  taken for good
   bool change_is_within(double limit, double skip_rel = 0);
+  /// Where the last of these looks was given up, or did not hold: the middle of the side or the sample
+  /// of the reference that is too far.
+  const std::optional<Eigen::Vector3d>& too_far_at() const { return too_far_at_; }
   void commit();    ///< \throws InputError after a change that was given up
   void rollback();  ///< to the last commit; the mesh must be rolled back by its transaction
 
@@ -115,6 +119,7 @@ class SurfaceDistance {
   std::vector<SideUndo> side_undo_;
   std::vector<SampleUndo> sample_undo_;
   bool given_up_ = false;
+  std::optional<Eigen::Vector3d> too_far_at_;
 };
 
 }  // namespace hexweft

@@ -13,6 +13,7 @@ constexpr int kLevels = 3;  // 64 parts of a triangle of mean size, each with it
 }  // namespace
 
 bool SurfaceDistance::change_is_within(double limit, double skip_rel) {
+  too_far_at_.reset();
   int near = -1;
   FarthestSample farthest(
       [&](const Eigen::Vector3d& p) {
@@ -26,7 +27,10 @@ bool SurfaceDistance::change_is_within(double limit, double skip_rel) {
     const QuadPoints& q = grid_.points(u.side);
     farthest.look_at(q[0], q[1], q[2], kLevels + levels_for(q[0], q[1], q[2]));
     farthest.look_at(q[2], q[3], q[0], kLevels + levels_for(q[2], q[3], q[0]));
-    if (farthest.done()) return false;
+    if (farthest.done()) {
+      too_far_at_ = grid_.centre(u.side);
+      return false;
+    }
   }
   return changed_triangles_are_within(limit, skip_rel * limit);
 }
@@ -64,6 +68,7 @@ bool SurfaceDistance::changed_triangles_are_within(double limit, double skip) {
     const Eigen::Vector3d a = points.col(corners[0]), b = points.col(corners[1]),
                           c = points.col(corners[2]);
     farthest.look_at(a, b, c, kLevels + levels_for(a, b, c));
+    if (farthest.done()) too_far_at_ = (a + b + c) / 3;
   }
   return !farthest.done();
 }

@@ -41,32 +41,4 @@ CandidateQueues make_queues(const HexMesh& mesh, const BaseComplex& bc,
   return q;
 }
 
-// A sheet that failed so often, each time in new surroundings, is let go until its own cells
-// change.
-constexpr int kMostTries = 3;
-
-std::size_t FailureMemory::key(const CollapsePlan& plan) {
-  // FNV-1a over the cells, and the groups: the two diagonals of a chord remove the same cells.
-  std::size_t h = 1469598103934665603ull;
-  const auto mix = [&h](int x) { h = (h ^ static_cast<unsigned>(x)) * 1099511628211ull; };
-  for (CellHandle c : plan.removed) mix(c.idx);
-  mix(plan.n_groups());
-  mix(plan.members.empty() ? 0 : plan.group(0).back().idx);
-  return h;
-}
-
-bool FailureMemory::should_wait(std::size_t key, int step, bool patient) const {
-  const auto it = failures_.find(key);
-  if (it == failures_.end()) return false;
-  const Failure& f = it->second;
-  if (f.times >= kMostTries) return true;
-  return step - f.step < (patient ? 1 << 2 * f.times : 1);
-}
-
-void FailureMemory::failed(std::size_t key, int step) {
-  Failure& f = failures_[key];
-  f.step = step;
-  ++f.times;
-}
-
 }  // namespace hexweft

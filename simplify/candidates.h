@@ -1,9 +1,7 @@
 /// \file
-/// The queues of the loop: what could be collapsed, in order, and what is known of earlier
-/// failures.
+/// The queues of the loop: what could be collapsed, in order.
 #pragma once
 
-#include <unordered_map>
 #include <vector>
 
 #include "simplify/options.h"
@@ -34,22 +32,5 @@ CandidateQueues make_queues(const HexMesh& mesh, const BaseComplex& bc,
 /// \param sheets  all of this base complex
 Refusal filter_chord(const BaseComplex& bc, const Chord& chord, const ChordTerms& terms,
                      const std::vector<Sheet>& sheets, const SimplifyOptions& options);
-
-/// Remembers which collapses failed. A candidate is known by the cells it would remove; after a
-/// failure it waits for a growing number of accepted steps before it is tried again, and after
-/// several until its own cells are others.
-class FailureMemory {
- public:
-  static std::size_t key(const CollapsePlan& plan);
-  bool should_wait(std::size_t key, int step, bool patient) const;
-  void failed(std::size_t key, int step);
-  void forget_all() { failures_.clear(); }
-
- private:
-  struct Failure {
-    int step, times;
-  };
-  std::unordered_map<std::size_t, Failure> failures_;
-};
 
 }  // namespace hexweft

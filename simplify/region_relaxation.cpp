@@ -4,6 +4,7 @@
 
 #include "ovm/dual.h"
 #include "ovm/edit/split_sheet.h"
+#include "ovm/quality.h"
 
 namespace hexweft {
 namespace {
@@ -48,10 +49,15 @@ class RegionRelaxation {
     touched_.insert(touched_.end(), plan.removed.begin(), plan.removed.end());
   }
 
-  Refusal run() {
+  RegionResult run() {
     const Refusal refusal = relax();
-    if (refusal != Refusal::hausdorff || options_.splits_per_trial == 0) return refusal;
-    return split_until_near() ? Refusal::none : refusal;
+    if (refusal == Refusal::none) return {};
+    // Where it failed first: what splits have left elsewhere is not the cause.
+    const RegionResult failed = {refusal, refusal == Refusal::hausdorff
+                                              ? context_.distance.too_far_at()
+                                              : worst_cell_};
+    if (refusal != Refusal::hausdorff || options_.splits_per_trial == 0) return failed;
+    return split_until_near() ? RegionResult{} : failed;
   }
 
  private:
@@ -129,7 +135,11 @@ class RegionRelaxation {
     p.min_scaled_jacobian = share_of_least * least_;
     p.surface.treatment = treatment;
     const ParametrizationReport report = parametrize(context_.mesh, region_, context_.reference, p);
-    if (!report.valid()) return refusal_of(report.failure);
+    worst_cell_.reset();
+    if (!report.valid()) {
+      worst_cell_ = place_of_worst_cell();
+      return refusal_of(report.failure);
+    }
     return report.mean_scaled_jacobian < share_of_mean * mean_ ? Refusal::quality : Refusal::none;
   }
 
@@ -137,6 +147,17 @@ class RegionRelaxation {
     const Refusal refusal = move(iterations, treatment, 1, 1);
     if (refusal != Refusal::none) return refusal;
     return stays_on_surface(context_, touched_) ? Refusal::none : Refusal::hausdorff;
+  }
+
+  Eigen::Vector3d place_of_worst_cell() const {
+    const HexMesh& mesh = context_.mesh;
+    const auto worst =
+        std::min_element(region_.begin(), region_.end(), [&](CellHandle a, CellHandle b) {
+          return scaled_jacobian(mesh, a) < scaled_jacobian(mesh, b);
+        });
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (VertexHandle v : mesh.vertices(*worst)) sum += mesh.point(v);
+    return sum / 8;
   }
 
   double distance(double limit) {
@@ -162,11 +183,12 @@ class RegionRelaxation {
   std::vector<CellHandle> region_;   // moves
   std::vector<CellHandle> touched_;  // moved, or gone
   double least_, mean_;              // floors of the scaled Jacobian
+  std::optional<Eigen::Vector3d> worst_cell_;  // where the last move left it below the floor
 };
 
 }  // namespace
 
-Refusal relax_region(TrialContext& context, const CollapsePlan& plan,
+RegionResult relax_region(TrialContext& context, const CollapsePlan& plan,
                      std::span<const VertexHandle> merged, const Quality& old,
                      const SimplifyOptions& options) {
   return RegionRelaxation(context, plan, merged, old, options).run();

@@ -3,12 +3,18 @@
 /// good and the surface is met, or it is clear that they will not be.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "simplify/trial.h"
 
 namespace hexweft {
+
+struct RegionResult {
+  Refusal refusal = Refusal::none;
+  std::optional<Eigen::Vector3d> failed_at = {};  ///< if it is due to a single place
+};
 
 /// Parametrizes the cells round the merged vertices within the open transaction of a trial. A step
 /// may lower the quality of its region to the floors of the options, but where it was under them
@@ -18,7 +24,7 @@ namespace hexweft {
 /// refusal it is as before.
 /// \param merged  the vertices that are left of those merged
 /// \param old     quality of the region before the edit
-Refusal relax_region(TrialContext& context, const CollapsePlan& plan,
+RegionResult relax_region(TrialContext& context, const CollapsePlan& plan,
                      std::span<const VertexHandle> merged, const Quality& old,
                      const SimplifyOptions& options);
 

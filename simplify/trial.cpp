@@ -1,6 +1,7 @@
 #include "simplify/trial.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "ovm/quality.h"
 #include "ovm/topology_check.h"
@@ -60,6 +61,32 @@ std::optional<std::vector<Eigen::Vector3d>> targets_of(TrialContext& context, co
   if (curves.n_lines() == 0) return default_targets(context.mesh, bc.graph, plan);
   if (!context.labels) context.labels = feature_of(context.reference, context.mesh);
   return feature_targets(context.mesh, bc.graph, plan, *context.labels, curves);
+}
+
+// Of a plan that was carried out: the group that was merged nearest to the place, and those round it.
+std::vector<int> groups_near(const HexMesh& mesh, const CollapsePlan& plan,
+                             const Eigen::Vector3d& place) {
+  constexpr int kRings = 2;
+  VertexHandle nearest;
+  double least = std::numeric_limits<double>::infinity();
+  for (int g = 0; g < plan.n_groups(); ++g) {
+    const VertexHandle v = plan.group(g)[0];
+    if (!mesh.is_live(v)) continue;
+    const double d = (mesh.point(v) - place).squaredNorm();
+    if (d < least) least = d, nearest = v;
+  }
+  if (!nearest.valid()) return {};
+  std::vector<VertexHandle> round;
+  for (CellHandle c : cells_around(mesh, {&nearest, 1}, kRings)) {
+    const auto vertices = mesh.vertices(c);
+    round.insert(round.end(), vertices.begin(), vertices.end());
+  }
+  std::sort(round.begin(), round.end());
+  std::vector<int> near;
+  for (int g = 0; g < plan.n_groups(); ++g) {
+    if (std::binary_search(round.begin(), round.end(), plan.group(g)[0])) near.push_back(g);
+  }
+  return near;
 }
 
 }  // namespace
@@ -172,7 +199,9 @@ TrialResult try_collapse(TrialContext& context, const BaseComplex& bc, const Col
   result.refusal = check_topology_after(mesh, left, euler);
   if (!result.accepted()) return result;
 
-  result.refusal = relax_region(context, plan, left, old, options);
+  const RegionResult relaxed = relax_region(context, plan, left, old, options);
+  result.refusal = relaxed.refusal;
+  if (relaxed.failed_at) result.cause = groups_near(mesh, plan, *relaxed.failed_at);
   if (!result.accepted()) return result;
   result.refusal = check_structure(context, bc, result.base_complex);
   if (!result.accepted()) {

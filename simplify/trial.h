@@ -40,6 +40,7 @@ Quality measure_quality(const HexMesh& mesh, std::span<const CellHandle> cells);
 
 struct TrialResult {
   Refusal refusal = Refusal::none;
+  std::vector<int> cause;    ///< groups of the plan round where a geometric one was found, if known
   BaseComplex base_complex;  ///< of the new mesh if accepted, else empty
   bool accepted() const { return refusal == Refusal::none; }
 };

@@ -169,8 +169,11 @@ bool Run::collapse_chord(const CandidateQueues& q, Manner& manner, bool patient)
 
 bool Run::attempt(const CollapsePlan& plan, TrialCounts& counts, SimplifyProgress step,
                   Manner& manner, bool patient) {
-  const std::size_t key = FailureMemory::key(plan);
-  if (manner.memory.should_wait(key, step_, patient)) {
+  const bool waits = [&] {
+    const auto planning = timer(Stage::planning);
+    return manner.memory.should_wait(mesh_, plan, step_, patient);
+  }();
+  if (waits) {
     ++counts.waited;
     return false;
   }
@@ -182,7 +185,7 @@ bool Run::attempt(const CollapsePlan& plan, TrialCounts& counts, SimplifyProgres
   counts.seconds[static_cast<int>(result.refusal)] += seconds() - begun;
   if (!result.accepted()) {
     ++counts.refused[static_cast<int>(result.refusal)];
-    manner.memory.failed(key, step_);
+    manner.memory.failed(mesh_, plan, result.cause, step_);
     failed_in_a_row_ += is_geometric(result.refusal);
     return false;
   }

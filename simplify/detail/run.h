@@ -7,6 +7,7 @@
 #include "ovm/dual.h"
 #include "simplify/candidates.h"
 #include "simplify/checkpoint.h"
+#include "simplify/failure_memory.h"
 #include "simplify/trial.h"
 
 namespace hexweft::detail {
