@@ -4,8 +4,10 @@
 #include <cmath>
 #include <cstdlib>
 #include <numeric>
+#include <optional>
 #include <string>
 
+#include "optimize/problem_part.h"
 #include "ovm/errors.h"
 
 namespace hexweft {
@@ -46,8 +48,10 @@ class Parametrization {
                : *std::min_element(scaled_jacobians_.begin(), scaled_jacobians_.end());
   }
   void weigh_bad_hexes();
-  RelaxationReport relax_once(const Energy& energy, int iterations);
+  RelaxationReport relax_once(const Energy& energy, int iterations, ProblemPart* part = nullptr);
+  std::optional<ProblemPart> part_round_flat() const;
   bool untangle();
+  bool untangle(ProblemPart* part);
   void iterate(const Energy& energy, int iterations);
   double largest_relative_move(const Eigen::Matrix3Xd& from) const;
 
@@ -74,31 +78,56 @@ void Parametrization::weigh_bad_hexes() {
   }
 }
 
-RelaxationReport Parametrization::relax_once(const Energy& energy, int iterations) {
+RelaxationReport Parametrization::relax_once(const Energy& energy, int iterations,
+                                             ProblemPart* part) {
   problem_.points.swap(region_.points);
   constraint_.pulls(problem_.points, goals_, options_.surface.weight, problem_.pulls);
   problem_.pulls.insert(problem_.pulls.end(), goal_pulls_.begin(), goal_pulls_.end());
   RelaxationOptions relaxation;
   relaxation.max_iterations = iterations;
   relaxation.iterations_per_restart = std::max(10, iterations);
-  const RelaxationReport r = relax(problem_, energy, relaxation);
+  const RelaxationReport r =
+      part ? part->relax(problem_, energy, relaxation) : relax(problem_, energy, relaxation);
   problem_.points.swap(region_.points);
   report_.relaxation_iterations += r.iterations;
   return r;
 }
 
-/// Follows the regularized energy with ε tied to the worst corner, until no corner is flat.
+/// The hexahedra that are flat, with a few rings round them; none if that is most of the region.
+std::optional<ProblemPart> Parametrization::part_round_flat() const {
+  constexpr int kRings = 2;
+  constexpr double kMost = 0.5;  // of the hexahedra
+  const auto d = min_relative_determinants(region_.points, region_.hexes, problem_.targets);
+  std::vector<int> flat;
+  for (int h = 0; h < static_cast<int>(d.size()); ++h) {
+    if (!(d[h] > kFlat)) flat.push_back(h);
+  }
+  const auto n_vertices = static_cast<int>(region_.points.cols());
+  ProblemPart part(problem_, vertices_round(region_.hexes, n_vertices, flat, kRings));
+  if (part.n_hexes() > kMost * static_cast<double>(region_.hexes.size())) return std::nullopt;
+  return part;
+}
+
+/// Where few hexahedra are flat, as after most merges, what lies round them mostly suffices.
 bool Parametrization::untangle() {
+  if (least_determinant() > kFlat) return true;
+  report_.untangled = true;
+  if (options_.untangling_rounds == 0) return false;
+  std::optional<ProblemPart> part = part_round_flat();
+  return (part && untangle(&*part)) || untangle(nullptr);
+}
+
+/// Follows the regularized energy with ε tied to the worst corner, until no corner is flat.
+/// \param part  moves, if not null; else all
+bool Parametrization::untangle(ProblemPart* part) {
   constexpr int kIterations = 8;     // short rounds: the last one ends soon after nothing is flat
   constexpr int kRoundsPerGoal = 3;  // closest points cost as much as a round
   double least = least_determinant();
-  if (least > kFlat) return true;
-  report_.untangled = true;
   int rounds_without_gain = 0;
   for (int round = 0; round < options_.untangling_rounds; ++round) {
     FoldoverFree energy;
     energy.epsilon = FoldoverFree::epsilon_for(least - kFlat);
-    relax_once(energy, kIterations);
+    relax_once(energy, kIterations, part);
     problem_.targets = target_cuboids(region_, options_.target);
     if ((round + 1) % kRoundsPerGoal == 0) goals_ = constraint_.goals(region_);
     const double now = least_determinant();

@@ -33,6 +33,8 @@ void validate(const SimplifyOptions& o) {
   expect(o.target_hexahedra_rel > 0, "target_hexahedra_rel", o.target_hexahedra_rel, "> 0");
   expect(o.threads > 0, "threads", o.threads, "> 0");
   expect(o.splits_per_trial >= 0, "splits_per_trial", o.splits_per_trial, ">= 0");
+  expect(o.bold.max_interior_valence > 2, "bold.max_interior_valence", o.bold.max_interior_valence,
+         "> 2");
   expect(o.bold.splits_per_trial >= 0, "bold.splits_per_trial", o.bold.splits_per_trial, ">= 0");
   expect(o.rings > 0, "rings", o.rings, "> 0");
   expect(o.smoothing_trials >= 0, "smoothing_trials", o.smoothing_trials, ">= 0");

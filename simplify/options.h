@@ -15,12 +15,12 @@ namespace hexweft {
 
 struct RunState;  // checkpoint.h
 
-/// Where no ordinary trial succeeds, bold ones are made: ValenceLimits::max_angle_deg does not hold,
-/// and sheets are split within the trial where the surface is left too far away. A boundary edge of
+/// Where no ordinary trial succeeds, bold ones are made: the ValenceLimits are wider, and sheets are split within the trial where the surface is left too far away. A boundary edge of
 /// a single cell costs quality: they have floors of their own.
 struct BoldTrials {
   bool wanted = true;
-  double max_angle_deg = 360;          ///< as in ValenceLimits
+  double max_angle_deg = 360;    ///< as in ValenceLimits
+  int max_interior_valence = 8;  ///< > 2, as in ValenceLimits; what it unlocks may lower it again
   double min_scaled_jacobian = 0.3;    ///< as in SimplifyOptions
   double mean_scaled_jacobian = 0.85;  ///< as in SimplifyOptions
   int splits_per_trial = 12;           ///< as in SimplifyOptions
@@ -37,7 +37,8 @@ struct SimplifyOptions {
                                       ///< and what it found there
   double mean_scaled_jacobian = 0.7;  ///< [0, 1); the same for the mean over the region
   double target_hexahedra_rel = 1.0;  ///< > 0, of the input's count; below it sheets are refined
-  int rings = 3;                      ///< > 0, rings of cells round a collapse that move, per layer
+  /// > 0, rings of cells that move round the collapse of a layer; round that of several, twice as many
+  int rings = 3;
   int threads =
       1;  ///< > 0; two are used, for the two directions of distance checks at full sampling
   bool smooth = true;         ///< global smoothing at the end
@@ -53,7 +54,7 @@ struct SimplifyOptions {
   ParametrizationOptions parametrization = {.max_iterations = 4,
                                             .surface = {.treatment = SurfaceTreatment::fit}};
 
-  int max_failed_trials = 20;  ///< > 0, stop after so many parametrizations failed in a row
+  int max_failed_trials = 30;  ///< > 0, stop after so many parametrizations failed in a row
   std::optional<double> target_rate = {};     ///< [0, 1], stop at R = 1 - BC / BC_in
   std::optional<int> target_components = {};  ///< > 0, stop at so many
   /// > 0; after so long nothing more is begun, the smoothing at the end neither

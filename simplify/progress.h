@@ -16,7 +16,7 @@ enum class StepKind {
   sheet,       ///< a sheet was collapsed
   chord,       ///< a chord was collapsed
   refinement,  ///< a sheet was split
-  relief,      ///< the place farthest from the surface was relaxed
+  relief,      ///< the place farthest from the surface, or the whole mesh, was relaxed
   smoothing    ///< the whole mesh was smoothed; the last one
 };
 std::string_view name(StepKind kind);
@@ -31,7 +31,11 @@ struct SimplifyProgress {
   std::optional<ChordTerms> chord_terms = {};  ///< of a chord, before it went
 
   int step = 0;  ///< collapses and splits so far; relief and smoothing belong to the one before
-  int hexahedra = 0, components = 0, input_components = 0;
+  int hexahedra = 0;
+  /// When last counted. Of collapses far enough from each other to be made at one go they are counted
+  /// after the last.
+  int components = 0;
+  int input_components = 0;
   double hausdorff_ratio = 0;  ///< of the bounding-box diagonal, at the loop's sampling
   double min_scaled_jacobian = 1, mean_scaled_jacobian = 1;
   double seconds = 0;  ///< since the start, earlier runs of a resumed one included

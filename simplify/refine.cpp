@@ -88,7 +88,9 @@ std::optional<DualSheet> choose_sheet_to_refine(const HexMesh& mesh,
 
 bool try_refine(TrialContext& context, const DualSheet& sheet, const SimplifyOptions& options) {
   HexMesh& mesh = context.mesh;
-  const double floor = std::min(options.min_scaled_jacobian, min_scaled_jacobian(mesh));
+  std::vector<CellHandle> crossed;
+  for (const CellAxis& x : sheet.crossings) crossed.push_back(x.cell);
+  const double floor = std::min(options.min_scaled_jacobian, measure_quality(mesh, crossed).least);
   Transaction trial(mesh);
   const SheetSplit split = split_sheet(mesh, sheet);
   std::vector<VertexHandle> added;

@@ -42,7 +42,7 @@ class RegionRelaxation {
         most_cells_(std::max(context.mesh.n_cells() + static_cast<int>(plan.removed.size()),
                              context.most_cells)),
         seeds_(merged.begin(), merged.end()),
-        region_(cells_around(context.mesh, merged, options.rings * plan.width)),
+        region_(cells_around(context.mesh, merged, rings_round(plan, options))),
         touched_(region_),
         least_(std::max(std::min(options.min_scaled_jacobian, old.least), 1e-3)),
         mean_(std::min(options.mean_scaled_jacobian, old.mean)) {
@@ -53,9 +53,8 @@ class RegionRelaxation {
     const Refusal refusal = relax();
     if (refusal == Refusal::none) return {};
     // Where it failed first: what splits have left elsewhere is not the cause.
-    const RegionResult failed = {refusal, refusal == Refusal::hausdorff
-                                              ? context_.distance.too_far_at()
-                                              : worst_cell_};
+    const RegionResult failed = {
+        refusal, refusal == Refusal::hausdorff ? context_.distance.too_far_at() : worst_cell_};
     if (refusal != Refusal::hausdorff || options_.splits_per_trial == 0) return failed;
     return split_until_near() ? RegionResult{} : failed;
   }
@@ -177,20 +176,25 @@ class RegionRelaxation {
 
   TrialContext& context_;
   const SimplifyOptions& options_;
-  int width_;                        // of what was collapsed, layers
-  int most_cells_;                   // that the mesh may have
-  std::vector<VertexHandle> seeds_;  // of the region
-  std::vector<CellHandle> region_;   // moves
-  std::vector<CellHandle> touched_;  // moved, or gone
-  double least_, mean_;              // floors of the scaled Jacobian
+  int width_;                                  // of what was collapsed, layers
+  int most_cells_;                             // that the mesh may have
+  std::vector<VertexHandle> seeds_;            // of the region
+  std::vector<CellHandle> region_;             // moves
+  std::vector<CellHandle> touched_;            // moved, or gone
+  double least_, mean_;                        // floors of the scaled Jacobian
   std::optional<Eigen::Vector3d> worst_cell_;  // where the last move left it below the floor
 };
 
 }  // namespace
 
+// More rings for more layers meant the whole mesh for some, and no better results.
+int rings_round(const CollapsePlan& plan, const SimplifyOptions& options) {
+  return options.rings * std::min(plan.width, 2);
+}
+
 RegionResult relax_region(TrialContext& context, const CollapsePlan& plan,
-                     std::span<const VertexHandle> merged, const Quality& old,
-                     const SimplifyOptions& options) {
+                          std::span<const VertexHandle> merged, const Quality& old,
+                          const SimplifyOptions& options) {
   return RegionRelaxation(context, plan, merged, old, options).run();
 }
 

@@ -16,6 +16,9 @@ struct RegionResult {
   std::optional<Eigen::Vector3d> failed_at = {};  ///< if it is due to a single place
 };
 
+/// How many rings of cells move round what is collapsed.
+int rings_round(const CollapsePlan& plan, const SimplifyOptions& options);
+
 /// Parametrizes the cells round the merged vertices within the open transaction of a trial. A step
 /// may lower the quality of its region to the floors of the options, but where it was under them
 /// already, not any further. Where only the distance is too large and
@@ -25,7 +28,7 @@ struct RegionResult {
 /// \param merged  the vertices that are left of those merged
 /// \param old     quality of the region before the edit
 RegionResult relax_region(TrialContext& context, const CollapsePlan& plan,
-                     std::span<const VertexHandle> merged, const Quality& old,
-                     const SimplifyOptions& options);
+                          std::span<const VertexHandle> merged, const Quality& old,
+                          const SimplifyOptions& options);
 
 }  // namespace hexweft

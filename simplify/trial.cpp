@@ -43,24 +43,14 @@ bool same_shape(const TopologySummary& a, const TopologySummary& b) {
          a.genus == b.genus;
 }
 
-// What takes a look at the whole mesh comes last: it costs more than most refusals took, and hardly
-// ever finds anything. A hole that moved from one part to another shows only here.
-Refusal check_structure(const TrialContext& context, const BaseComplex& before,
-                        BaseComplex& after) {
-  const StageTimer timer(context.clock, Stage::structure);
-  if (!same_shape(context.shape, summarize_topology(context.mesh))) return Refusal::topology;
-  after = extract_base_complex(context.mesh);
-  const bool simpler = after.irregular == 0 && after.components.size() < before.components.size();
-  return simpler ? Refusal::none : Refusal::structure;
-}
-
 // Empty if the plan does away with a feature.
-std::optional<std::vector<Eigen::Vector3d>> targets_of(TrialContext& context, const BaseComplex& bc,
+std::optional<std::vector<Eigen::Vector3d>> targets_of(TrialContext& context,
+                                                       const SingularityGraph& graph,
                                                        const CollapsePlan& plan) {
   const FeatureCurves& curves = context.reference.curves();
-  if (curves.n_lines() == 0) return default_targets(context.mesh, bc.graph, plan);
+  if (curves.n_lines() == 0) return default_targets(context.mesh, graph, plan);
   if (!context.labels) context.labels = feature_of(context.reference, context.mesh);
-  return feature_targets(context.mesh, bc.graph, plan, *context.labels, curves);
+  return feature_targets(context.mesh, graph, plan, *context.labels, curves);
 }
 
 // Of a plan that was carried out: the group that was merged nearest to the place, and those round it.
@@ -87,6 +77,36 @@ std::vector<int> groups_near(const HexMesh& mesh, const CollapsePlan& plan,
     if (std::binary_search(round.begin(), round.end(), plan.group(g)[0])) near.push_back(g);
   }
   return near;
+}
+
+// Within an open transaction. If accepted, the distance is still to be committed, else it is as before.
+TrialResult collapse_and_relax(TrialContext& context, const SingularityGraph& graph,
+                               const CollapsePlan& plan, const SimplifyOptions& options) {
+  HexMesh& mesh = context.mesh;
+  TrialResult result;
+  {
+    const StageTimer timer(context.clock, Stage::plan_check);
+    result.refusal = check_plan(mesh, graph, plan, options.valence);
+  }
+  if (!result.accepted()) return result;
+
+  const auto targets = targets_of(context, graph, plan);
+  if (!targets) {
+    result.refusal = Refusal::feature;
+    return result;
+  }
+  const int euler = euler_of_live(mesh);
+  const std::vector<CellHandle> before =
+      cells_around(mesh, plan.members, rings_round(plan, options));
+  const Quality old = measure_quality(mesh, before);
+  const auto left = apply_plan(mesh, plan, *targets);
+  result.refusal = check_topology_after(mesh, left, euler);
+  if (!result.accepted()) return result;
+
+  const RegionResult relaxed = relax_region(context, plan, left, old, options);
+  result.refusal = relaxed.refusal;
+  if (relaxed.failed_at) result.cause = groups_near(mesh, plan, *relaxed.failed_at);
+  return result;
 }
 
 }  // namespace
@@ -149,6 +169,19 @@ bool relieve_farthest(TrialContext& context, const SimplifyOptions& options) {
   return true;
 }
 
+bool relax_all(TrialContext& context, const SimplifyOptions& options) {
+  HexMesh& mesh = context.mesh;
+  std::vector<CellHandle> all;
+  for (CellHandle c : mesh.cells()) all.push_back(c);
+  ParametrizationOptions p = options.parametrization;
+  p.min_scaled_jacobian = std::min(options.min_scaled_jacobian, measure_quality(mesh, all).least);
+  Transaction attempt(mesh);
+  if (!parametrize(mesh, all, context.reference, p).valid()) return false;
+  if (!stays_on_surface(context, all)) return false;
+  commit(context, attempt);
+  return true;
+}
+
 std::vector<CellHandle> cells_around(const HexMesh& mesh, std::span<const VertexHandle> vertices,
                                      int rings) {
   std::vector<char> seen_vertex(mesh.vertex_slots(), 0), seen_cell(mesh.cell_slots(), 0);
@@ -175,41 +208,36 @@ std::vector<CellHandle> cells_around(const HexMesh& mesh, std::span<const Vertex
   return result;
 }
 
+Refusal check_structure(const TrialContext& context, std::size_t n_before, BaseComplex& after) {
+  const StageTimer timer(context.clock, Stage::structure);
+  // A hole that moved from one part to another shows only here.
+  if (!same_shape(context.shape, summarize_topology(context.mesh))) return Refusal::topology;
+  after = extract_base_complex(context.mesh);
+  const bool simpler = after.irregular == 0 && after.components.size() < n_before;
+  return simpler ? Refusal::none : Refusal::structure;
+}
+
+TrialResult try_collapse_locally(TrialContext& context, const SingularityGraph& graph,
+                                 const CollapsePlan& plan, const SimplifyOptions& options) {
+  Transaction trial(context.mesh);
+  TrialResult result = collapse_and_relax(context, graph, plan, options);
+  if (result.accepted()) commit(context, trial);
+  return result;
+}
+
 TrialResult try_collapse(TrialContext& context, const BaseComplex& bc, const CollapsePlan& plan,
                          const SimplifyOptions& options) {
-  HexMesh& mesh = context.mesh;
-  TrialResult result;
-  {
-    const StageTimer timer(context.clock, Stage::plan_check);
-    result.refusal = check_plan(mesh, bc.graph, plan, options.valence);
-  }
+  Transaction trial(context.mesh);
+  TrialResult result = collapse_and_relax(context, bc.graph, plan, options);
   if (!result.accepted()) return result;
-
-  const auto targets = targets_of(context, bc, plan);
-  if (!targets) {
-    result.refusal = Refusal::feature;
-    return result;
-  }
-  const int euler = euler_of_live(mesh);
-  const std::vector<CellHandle> before =
-      cells_around(mesh, plan.members, options.rings * plan.width);
-  const Quality old = measure_quality(mesh, before);
-  Transaction trial(mesh);
-  const auto left = apply_plan(mesh, plan, *targets);
-  result.refusal = check_topology_after(mesh, left, euler);
-  if (!result.accepted()) return result;
-
-  const RegionResult relaxed = relax_region(context, plan, left, old, options);
-  result.refusal = relaxed.refusal;
-  if (relaxed.failed_at) result.cause = groups_near(mesh, plan, *relaxed.failed_at);
-  if (!result.accepted()) return result;
-  result.refusal = check_structure(context, bc, result.base_complex);
-  if (!result.accepted()) {
+  // What takes a look at the whole mesh comes last: it hardly ever finds anything.
+  result.refusal = check_structure(context, bc.components.size(), result.base_complex);
+  if (result.accepted()) {
+    commit(context, trial);
+  } else {
     context.distance.rollback();
     result.base_complex = {};
-    return result;
   }
-  commit(context, trial);
   return result;
 }
 

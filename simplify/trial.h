@@ -41,7 +41,7 @@ Quality measure_quality(const HexMesh& mesh, std::span<const CellHandle> cells);
 struct TrialResult {
   Refusal refusal = Refusal::none;
   std::vector<int> cause;    ///< groups of the plan round where a geometric one was found, if known
-  BaseComplex base_complex;  ///< of the new mesh if accepted, else empty
+  BaseComplex base_complex;  ///< of the new mesh if accepted by try_collapse(), else empty
   bool accepted() const { return refusal == Refusal::none; }
 };
 
@@ -49,6 +49,18 @@ struct TrialResult {
 /// plan, the topology where it changed, the parametrization, the distance, the new base complex.
 TrialResult try_collapse(TrialContext& context, const BaseComplex& bc, const CollapsePlan& plan,
                          const SimplifyOptions& options);
+
+/// The same but for the look at the whole mesh, which costs more than many a trial: the caller makes up
+/// for it with check_structure(), for several collapses at once, and must be able to undo them.
+/// \param graph  of the mesh; may be out of date beyond the cells at the plan's members
+TrialResult try_collapse_locally(TrialContext& context, const SingularityGraph& graph,
+                                 const CollapsePlan& plan, const SimplifyOptions& options);
+
+/// Whether genus, parts and boundary surfaces are the input's and the base complex is one of cuboids,
+/// fewer than before.
+/// \param n_before  components
+/// \param after     set to the base complex of the mesh as it is
+Refusal check_structure(const TrialContext& context, std::size_t n_before, BaseComplex& after);
 
 /// Makes an accepted change of the mesh and its distance final.
 void commit(TrialContext& context, Transaction& change);
@@ -65,6 +77,10 @@ std::pair<HalfFaceHandle, double> farthest_side(const SurfaceDistance& distance)
 /// would fail for it, whatever they do. Kept only if it brings the distance down.
 /// \return whether it did
 bool relieve_farthest(TrialContext& context, const SimplifyOptions& options);
+
+/// Relaxes the whole mesh. Kept only if every hexahedron and the surface are within the limits.
+/// \return whether it is
+bool relax_all(TrialContext& context, const SimplifyOptions& options);
 
 /// The live cells within `rings` of the vertices; ring 1 touches them. Ascending.
 std::vector<CellHandle> cells_around(const HexMesh& mesh, std::span<const VertexHandle> vertices,

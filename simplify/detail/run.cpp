@@ -21,11 +21,11 @@ constexpr double kLongAcross = 1.0;
 constexpr int kSplitsAtOnce = 5;
 // Up to this share sheets are split when nothing else goes on.
 constexpr double kMostCells = 1.1;
-// A verified copy of the mesh is kept whenever the components have fallen by this factor.
-constexpr double kVerifyEvery = 0.5;
 
 SimplifyOptions bold_options(SimplifyOptions options) {
   options.valence.max_angle_deg = options.bold.max_angle_deg;
+  options.valence.max_interior =
+      std::max(options.valence.max_interior, options.bold.max_interior_valence);
   options.min_scaled_jacobian = options.bold.min_scaled_jacobian;
   options.mean_scaled_jacobian = options.bold.mean_scaled_jacobian;
   options.splits_per_trial = options.bold.splits_per_trial;
@@ -65,6 +65,7 @@ SimplifyReport Run::run() {
   clock_.back_to(Stage::other);
   observe({.what = StepKind::start});
   loop();
+  go_on_relaxed();
   if (n_collapses() == 0 && step_ > 0) give_back_input();
   while (!is_cut_short() && is_short_of_cells(kRefineBelow) && refine(0)) {
   }
@@ -80,14 +81,48 @@ SimplifyReport Run::run() {
 void Run::loop() {
   // Splitting a sheet comes before a second look at what failed lately: it gives that more room.
   const double long_enough = RefineOptions().min_length_rel;
+  refine_while_short();
   while (!should_stop()) {
-    for (int i = 0; i < kSplitsAtOnce && is_short_of_cells(kRefineBelow); ++i) {
-      if (!refine(kLongAcross)) break;
-    }
-    if (collapse_one(careful_, true) || collapse_one(bold_, true)) continue;
-    if (!refine(long_enough, kMostCells) && !collapse_one(careful_, false) &&
-        !collapse_one(bold_, false))
+    if (collapse_some(careful_, true) || collapse_some(bold_, true)) continue;
+    if (!refine(long_enough, kMostCells) && !collapse_some(careful_, false) &&
+        !collapse_some(bold_, false))
       break;
+  }
+}
+
+// Where nothing goes on any more the whole mesh is relaxed: it gives later trials more distance to spend.
+void Run::go_on_relaxed() {
+  constexpr int kMost = 3;
+  for (int i = 0; i < kMost && n_collapses() > 0 && is_stuck() && relax_mesh(); ++i) {
+    const int before = n_collapses();
+    careful_.memory.forget_all();
+    bold_.memory.forget_all();
+    not_refinable_.clear();
+    failed_in_a_row_ = 0;
+    report_.stopped = StopReason::nothing_left;
+    loop();
+    if (n_collapses() == before) break;
+  }
+}
+
+bool Run::is_stuck() {
+  return !is_cut_short() && report_.stopped != StopReason::target_reached &&
+         bc_.components.size() > 1;
+}
+
+bool Run::relax_mesh() {
+  const bool relaxed = [&] {
+    const auto relief = timer(Stage::relief);
+    return relax_all(context_, options_);
+  }();
+  if (relaxed) observe({.what = StepKind::relief});
+  record();
+  return relaxed;
+}
+
+void Run::refine_while_short() {
+  for (int i = 0; i < kSplitsAtOnce && is_short_of_cells(kRefineBelow); ++i) {
+    if (!refine(kLongAcross)) break;
   }
 }
 
@@ -115,103 +150,6 @@ bool Run::should_stop() {
     return false;
   }
   return true;
-}
-
-// Tries candidates in order until one is accepted. A patient look leaves out what failed lately.
-bool Run::collapse_one(Manner& manner, bool patient) {
-  if (&manner == &bold_ && !options_.bold.wanted) return false;
-  if (!bc_of_this_mesh_) {
-    const auto extracting = timer(Stage::base_complex);
-    bc_ = extract_base_complex(mesh_);
-    bc_of_this_mesh_ = true;
-  }
-  const CandidateQueues q = [&] {
-    const auto ranking = timer(Stage::ranking);
-    return make_queues(mesh_, bc_, options_, options_.ranking);
-  }();
-  return collapse_sheet(q, manner, patient) || collapse_chord(q, manner, patient);
-}
-
-bool Run::collapse_sheet(const CandidateQueues& q, Manner& manner, bool patient) {
-  for (const Candidate& c : q.sheet_queue) {
-    if (should_stop()) return true;
-    const Sheet& sheet = q.sheets[c.index];
-    const CollapsePlan plan = [&] {
-      const auto planning = timer(Stage::planning);
-      return plan_sheet_collapse(mesh_, bc_, sheet);
-    }();
-    const SimplifyProgress step = {.what = StepKind::sheet,
-                                   .kind = name(sheet.kind),
-                                   .width = plan.width,
-                                   .sheet_terms = q.sheet_terms[c.index]};
-    if (attempt(plan, report_.sheets, step, manner, patient)) return true;
-  }
-  return false;
-}
-
-bool Run::collapse_chord(const CandidateQueues& q, Manner& manner, bool patient) {
-  for (const Candidate& c : q.chord_queue) {
-    if (should_stop()) return true;
-    const Chord& chord = q.chords[c.index];
-    const ChordTerms& terms = q.chord_terms[c.index];
-    const CollapsePlan plan = [&] {
-      const auto planning = timer(Stage::planning);
-      return plan_chord_collapse(mesh_, bc_, chord, terms.diagonal, q.sheets);
-    }();
-    const SimplifyProgress step = {.what = StepKind::chord,
-                                   .kind = chord.closed ? "closed" : "open",
-                                   .width = plan.width,
-                                   .chord_terms = terms};
-    if (attempt(plan, report_.chords, step, manner, patient)) return true;
-  }
-  return false;
-}
-
-bool Run::attempt(const CollapsePlan& plan, TrialCounts& counts, SimplifyProgress step,
-                  Manner& manner, bool patient) {
-  const bool waits = [&] {
-    const auto planning = timer(Stage::planning);
-    return manner.memory.should_wait(mesh_, plan, step_, patient);
-  }();
-  if (waits) {
-    ++counts.waited;
-    return false;
-  }
-  const double begun = seconds();
-  TrialResult result = [&] {
-    const auto trial = timer(Stage::trial);
-    return try_collapse(context_, bc_, plan, manner.options);
-  }();
-  counts.seconds[static_cast<int>(result.refusal)] += seconds() - begun;
-  if (!result.accepted()) {
-    ++counts.refused[static_cast<int>(result.refusal)];
-    manner.memory.failed(mesh_, plan, result.cause, step_);
-    failed_in_a_row_ += is_geometric(result.refusal);
-    return false;
-  }
-  ++counts.accepted;
-  accept(std::move(result.base_complex), step);
-  return true;
-}
-
-void Run::accept(BaseComplex bc, const SimplifyProgress& step) {
-  bc_ = std::move(bc);
-  ++step_;
-  failed_in_a_row_ = 0;
-  observe(step);
-  relieve();
-  not_refinable_.clear();
-  if (static_cast<double>(bc_.components.size()) <= kVerifyEvery * verified_components_) verify();
-  if (mesh_.cell_slots() > 4 * mesh_.n_cells()) compact();
-  keep_checkpoint();
-}
-
-void Run::relieve() {
-  const bool relieved = [&] {
-    const auto relief = timer(Stage::relief);
-    return relieve_farthest(context_, options_);
-  }();
-  if (relieved) observe({.what = StepKind::relief});
 }
 
 bool Run::is_short_of_cells(double share) const {
@@ -244,7 +182,7 @@ bool Run::refine_one(const DualSheet& sheet) {
   bc_of_this_mesh_ = false;
   ++step_;
   observe({.what = StepKind::refinement});
-  keep_checkpoint();
+  if (!in_round_) record();
   return true;
 }
 

@@ -12,6 +12,8 @@
 
 namespace hexweft::detail {
 
+class Round;  // round.h
+
 class Run {
  public:
   /// \throws InputError if the base complex is not regular
@@ -32,13 +34,10 @@ class Run {
 
   // ---- The loop (run.cpp) ----
   void loop();
-  bool collapse_one(Manner& manner, bool patient);
-  bool collapse_sheet(const CandidateQueues& q, Manner& manner, bool patient);
-  bool collapse_chord(const CandidateQueues& q, Manner& manner, bool patient);
-  bool attempt(const CollapsePlan& plan, TrialCounts& counts, SimplifyProgress step, Manner& manner,
-               bool patient);
-  void accept(BaseComplex bc, const SimplifyProgress& step);
-  void relieve();
+  void go_on_relaxed();
+  bool is_stuck();
+  bool relax_mesh();
+  void refine_while_short();
   bool refine(double min_length_rel, double most_cells_rel = 1);
   bool refine_one(const DualSheet& sheet);
   bool is_short_of_cells(double share) const;
@@ -46,10 +45,29 @@ class Run {
   bool is_cut_short();  // asked to stop, or out of time
   int n_collapses() const { return report_.sheets.accepted + report_.chords.accepted; }
 
+  // ---- A round of it (run_round.cpp) ----
+  struct Tally {
+    int step, refined, sheets, chords;
+  };
+  Tally tally() const {
+    return {step_, report_.refined, report_.sheets.accepted, report_.chords.accepted};
+  }
+  bool collapse_some(Manner& manner, bool patient);
+  int most_in_round() const;
+  void collapse_sheets(const CandidateQueues& q, Manner& manner, bool patient, Round& round);
+  void collapse_chord(const CandidateQueues& q, Manner& manner, bool patient, Round& round);
+  bool attempt(CollapsePlan plan, TrialCounts& counts, const SimplifyProgress& step, Manner& manner,
+               bool patient, Round& round);
+  void accept(const SimplifyProgress& step);
+  void relieve();
+  void end(Round& round, const Tally& before, Manner& manner);
+  void take_back(Round& round, const Tally& before, Refusal refusal, Manner& manner);
+
   // ---- What goes on beside it (run_record.cpp) ----
   double seconds() const;  // since the start of this run
   RunState state();
   void observe(SimplifyProgress p);
+  void record();
   void tell_of_output(SimplifyProgress p);
   void tell(SimplifyProgress p);
   void keep_checkpoint(bool now = false);
@@ -80,7 +98,9 @@ class Run {
   SimplifyReport report_;
   HexMesh verified_;  // the last mesh that may be written; at first the input
   int verified_components_ = 0;
-  int step_ = 0;             // collapses and splits that the mesh is away from the input
+  int step_ = 0;  // collapses and splits that the mesh is away from the input
+  std::vector<SimplifyProgress> observed_;  // not told yet: the components are still to be counted
+  bool in_round_ = false, last_round_failed_ = false;
   int failed_in_a_row_ = 0;  // trials that came as far as the geometry, since the last accepted one
   Clock::time_point last_checkpoint_;
   double earlier_seconds_ = 0;  // of runs before this one

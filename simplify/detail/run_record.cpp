@@ -1,4 +1,5 @@
 // What goes on beside the loop: telling, keeping, measuring, ending.
+#include <algorithm>
 #include <condition_variable>
 #include <mutex>
 #include <stop_token>
@@ -83,12 +84,27 @@ void Run::observe(SimplifyProgress p) {
   all.reserve(mesh_.n_cells());
   for (const CellHandle c : mesh_.cells()) all.push_back(c);
   const Quality now = measure_quality(mesh_, all);
+  p.step = step_;
   p.hexahedra = mesh_.n_cells();
   p.components = static_cast<int>(bc_.components.size());
   p.hausdorff_ratio = distance_.ratio();
   p.min_scaled_jacobian = now.least;
   p.mean_scaled_jacobian = now.mean;
-  tell(p);
+  p.seconds = earlier_seconds_ + seconds();
+  observed_.push_back(p);
+}
+
+// Once the components have been counted, which holds from the last collapse on.
+void Run::record() {
+  const auto last = std::find_if(observed_.rbegin(), observed_.rend(),
+                                 [](const SimplifyProgress& p) { return is_collapse(p.what); });
+  if (last != observed_.rend()) {
+    for (auto p = last.base() - 1; p != observed_.end(); ++p)
+      p->components = static_cast<int>(bc_.components.size());
+  }
+  for (const SimplifyProgress& p : observed_) tell(p);
+  observed_.clear();
+  keep_checkpoint();
 }
 
 void Run::tell_of_output(SimplifyProgress p) {
@@ -98,13 +114,13 @@ void Run::tell_of_output(SimplifyProgress p) {
   p.hausdorff_ratio = report_.hausdorff_ratio;
   p.min_scaled_jacobian = report_.after.min_scaled_jacobian;
   p.mean_scaled_jacobian = report_.after.mean_scaled_jacobian;
+  p.step = step_;
+  p.seconds = earlier_seconds_ + seconds();
   tell(p);
 }
 
 void Run::tell(SimplifyProgress p) {
-  p.step = step_;
   p.input_components = report_.before.components;
-  p.seconds = earlier_seconds_ + seconds();
   options_.observer(p);
 }
 

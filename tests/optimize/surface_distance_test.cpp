@@ -168,5 +168,28 @@ TEST(SurfaceDistance, TellsWhereTheSurfaceIsFar) {
   EXPECT_EQ(far, 4);
 }
 
+TEST(SurfaceDistance, TellsWhereItGaveUp) {
+  HexMesh mesh = make_grid({4, 4, 4});
+  const auto reference = make_reference_surface(mesh);
+  SurfaceDistance kept(mesh, reference);
+  const VertexHandle corner(0);
+  const Eigen::Vector3d at = mesh.point(corner);
+  for (const double outward : {1.0, -1.0}) {  // far from the mesh to the reference, and back
+    Transaction trial(mesh);
+    mesh.set_point(corner, at * (1 + outward * 0.3) - outward * Eigen::Vector3d::Constant(0.15));
+    const double moved = (mesh.point(corner) - at).norm();
+    kept.after_change(mesh);
+    EXPECT_FALSE(kept.too_far_at());
+    EXPECT_FALSE(kept.change_is_within(0.1 * moved));
+    ASSERT_TRUE(kept.too_far_at());
+    EXPECT_LT((*kept.too_far_at() - at).norm(), 1.0);
+    kept.rollback();
+    kept.after_change(mesh, 0.1 * moved);
+    ASSERT_TRUE(kept.too_far_at());
+    EXPECT_LT((*kept.too_far_at() - at).norm(), 1.0);
+    kept.rollback();
+  }
+}
+
 }  // namespace
 }  // namespace hexweft

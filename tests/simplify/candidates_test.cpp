@@ -1,4 +1,4 @@
-// Queues of candidates, and the memory of failures.
+// Queues of candidates.
 #include "simplify/candidates.h"
 
 #include <algorithm>
@@ -66,34 +66,6 @@ TEST(Candidates, ChordsThatRemoveNoSingularEdgeAreLeftOut) {
                         t.deviation <= SimplifyOptions().max_chord_deviation;
     EXPECT_EQ(queued.count(i) == 1, passes);
   }
-}
-
-TEST(FailureMemory, WaitsLongerAfterEachFailure) {
-  FailureMemory memory;
-  EXPECT_FALSE(memory.should_wait(7, 0, true));
-  memory.failed(7, 0);
-  EXPECT_TRUE(memory.should_wait(7, 0, false));
-  EXPECT_TRUE(memory.should_wait(7, 3, true));
-  EXPECT_FALSE(memory.should_wait(7, 1, false));
-  EXPECT_FALSE(memory.should_wait(7, 4, true));
-  memory.failed(7, 4);
-  EXPECT_TRUE(memory.should_wait(7, 19, true));
-  EXPECT_FALSE(memory.should_wait(7, 20, true));
-  memory.failed(7, 20);
-  EXPECT_TRUE(memory.should_wait(7, 1000, false)) << "let go after the third failure";
-  EXPECT_FALSE(memory.should_wait(8, 2, true));
-  memory.forget_all();
-  EXPECT_FALSE(memory.should_wait(7, 2, false));
-}
-
-TEST(FailureMemory, KnowsPlansApart) {
-  // The two diagonals of a chord remove the same cells.
-  const HexMesh mesh = make_pillowed_grid(3);
-  const BaseComplex bc = extract_base_complex(mesh);
-  const auto plans = all_plans(mesh, bc);
-  std::set<std::size_t> keys;
-  for (const CollapsePlan& p : plans) keys.insert(FailureMemory::key(p));
-  EXPECT_EQ(keys.size(), plans.size());
 }
 
 }  // namespace

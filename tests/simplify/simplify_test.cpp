@@ -317,7 +317,7 @@ TEST(Simplify, ProfileAddsUpToTheRun) {
 }
 
 TEST(Simplify, ThinnestFirstIsAnotherOrder) {
-  const HexMesh input = make_small_sphere();
+  const HexMesh input = make_octree_like(Shape::blob, 8, 2);
   SimplifyOptions options;
   options.ranking = Ranking::thickness;
   HexMesh mesh = input, weighted = input;

@@ -18,7 +18,10 @@ struct Bench {
       : mesh(std::move(m)),
         reference(make_reference_surface(mesh, 40, {.mode = features})),
         distance(mesh, reference),
-        context{mesh, reference, distance, summarize_topology(mesh),
+        context{mesh,
+                reference,
+                distance,
+                summarize_topology(mesh),
                 limit_rel * reference.bounding_box_diagonal(),
                 limit_rel * reference.bounding_box_diagonal()},
         bc(extract_base_complex(mesh)) {}
@@ -175,6 +178,45 @@ TEST(CellsAround, RingsOfAGrid) {
   }
   EXPECT_EQ(cells_around(mesh, middle, 100).size(), 729u);
   EXPECT_TRUE(cells_around(mesh, {}, 3).empty());
+}
+
+TEST(Trial, RelaxingAllKeepsTheLimitsOrEverything) {
+  Bench b(make_octree_like(Shape::blob, 8, 2));
+  const double least = min_scaled_jacobian(b.mesh);
+  int kept = 0;
+  for (const double share : {1.0, 0.01}) {
+    b.context.distance_limit = share * b.context.final_limit;
+    const MeshDump dump(b.mesh);
+    const DistanceState distance(b.distance);
+    if (relax_all(b.context, {})) {
+      ++kept;
+      EXPECT_FALSE(MeshDump(b.mesh) == dump);
+      EXPECT_LE(b.distance.distance(), b.context.distance_limit);
+      EXPECT_GE(min_scaled_jacobian(b.mesh),
+                std::min(least, SimplifyOptions().min_scaled_jacobian));
+    } else {
+      EXPECT_TRUE(MeshDump(b.mesh) == dump);
+      EXPECT_TRUE(DistanceState(b.distance) == distance);
+    }
+  }
+  EXPECT_EQ(kept, 1);
+}
+
+TEST(Trial, ARefusalOverTheDistanceNamesTheMergesRoundThePlace) {
+  Bench b(make_octree_like(Shape::sphere, 7), 0.002);
+  int named = 0;
+  for (const CollapsePlan& plan : all_plans(b.mesh, b.bc, 5)) {
+    const TrialResult result = try_collapse(b.context, b.bc, plan, {});
+    if (result.refusal != Refusal::hausdorff) {
+      if (result.accepted()) break;
+      EXPECT_TRUE(result.cause.empty() || is_geometric(result.refusal));
+      continue;
+    }
+    ++named;
+    EXPECT_FALSE(result.cause.empty());
+    for (int g : result.cause) EXPECT_LT(g, plan.n_groups());
+  }
+  EXPECT_GT(named, 0);
 }
 
 }  // namespace

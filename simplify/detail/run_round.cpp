@@ -1,0 +1,169 @@
+// The collapses of a run.
+#include "simplify/detail/round.h"
+#include "simplify/detail/run.h"
+
+namespace hexweft::detail {
+namespace {
+
+// More would go by a ranking that is too old.
+constexpr int kMostInRound = 8;
+// A round ends where sheets have to be split, at this share of the wanted count of cells.
+constexpr double kShortOfCells = 0.85;
+// Below so many times the components that are asked for they are counted after every collapse.
+constexpr double kNearTarget = 2;
+// A verified copy of the mesh is kept whenever the components have fallen by this factor.
+constexpr double kVerifyEvery = 0.5;
+
+}  // namespace
+
+// Tries candidates in order; sheets, and one chord where no sheet can be collapsed. A patient look
+// leaves out what failed lately. \return whether the loop should go on from the start
+bool Run::collapse_some(Manner& manner, bool patient) {
+  if (&manner == &bold_ && !options_.bold.wanted) return false;
+  if (!bc_of_this_mesh_) {
+    const auto extracting = timer(Stage::base_complex);
+    bc_ = extract_base_complex(mesh_);
+    bc_of_this_mesh_ = true;
+  }
+  const CandidateQueues q = [&] {
+    const auto ranking = timer(Stage::ranking);
+    return make_queues(mesh_, bc_, options_, options_.ranking);
+  }();
+  const Tally before = tally();
+  Round round(mesh_);
+  in_round_ = true;
+  collapse_sheets(q, manner, patient, round);
+  if (round.empty()) collapse_chord(q, manner, patient, round);
+  if (!round.empty()) end(round, before, manner);
+  in_round_ = false;
+  return !round.empty() || should_stop();
+}
+
+int Run::most_in_round() const {
+  double target = options_.target_components.value_or(0);
+  if (options_.target_rate)
+    target = std::max(target, (1 - *options_.target_rate) * report_.before.components);
+  const bool is_near = static_cast<double>(bc_.components.size()) < kNearTarget * target;
+  return is_near || last_round_failed_ ? 1 : kMostInRound;
+}
+
+void Run::collapse_sheets(const CandidateQueues& q, Manner& manner, bool patient, Round& round) {
+  const int most = most_in_round();
+  for (const Candidate& c : q.sheet_queue) {
+    if (should_stop()) return;
+    const Sheet& sheet = q.sheets[c.index];
+    CollapsePlan plan = [&] {
+      const auto planning = timer(Stage::planning);
+      return plan_sheet_collapse(mesh_, bc_, sheet);
+    }();
+    const SimplifyProgress step = {.what = StepKind::sheet,
+                                   .kind = name(sheet.kind),
+                                   .width = plan.width,
+                                   .sheet_terms = q.sheet_terms[c.index]};
+    if (!attempt(std::move(plan), report_.sheets, step, manner, patient, round)) continue;
+    if (std::ssize(round.collapses()) >= most || is_short_of_cells(kShortOfCells)) return;
+  }
+}
+
+void Run::collapse_chord(const CandidateQueues& q, Manner& manner, bool patient, Round& round) {
+  for (const Candidate& c : q.chord_queue) {
+    if (should_stop()) return;
+    const Chord& chord = q.chords[c.index];
+    const ChordTerms& terms = q.chord_terms[c.index];
+    CollapsePlan plan = [&] {
+      const auto planning = timer(Stage::planning);
+      return plan_chord_collapse(mesh_, bc_, chord, terms.diagonal, q.sheets);
+    }();
+    const SimplifyProgress step = {.what = StepKind::chord,
+                                   .kind = chord.closed ? "closed" : "open",
+                                   .width = plan.width,
+                                   .chord_terms = terms};
+    if (attempt(std::move(plan), report_.chords, step, manner, patient, round)) return;
+  }
+}
+
+bool Run::attempt(CollapsePlan plan, TrialCounts& counts, const SimplifyProgress& step,
+                  Manner& manner, bool patient, Round& round) {
+  if (!round.is_clear_of(plan)) return false;
+  const bool waits = [&] {
+    const auto planning = timer(Stage::planning);
+    return manner.memory.should_wait(mesh_, plan, step_, patient);
+  }();
+  if (waits) {
+    ++counts.waited;
+    return false;
+  }
+  const double begun = seconds();
+  const TrialResult result = [&] {
+    const auto trial = timer(Stage::trial);
+    return try_collapse_locally(context_, bc_.graph, plan, manner.options);
+  }();
+  counts.seconds[static_cast<int>(result.refusal)] += seconds() - begun;
+  if (!result.accepted()) {
+    ++counts.refused[static_cast<int>(result.refusal)];
+    manner.memory.failed(mesh_, plan, result.cause, step_);
+    failed_in_a_row_ += is_geometric(result.refusal) && round.empty();
+    return false;
+  }
+  ++counts.accepted;
+  round.add(std::move(plan));
+  accept(step);
+  return true;
+}
+
+void Run::accept(const SimplifyProgress& step) {
+  ++step_;
+  failed_in_a_row_ = 0;
+  not_refinable_.clear();
+  observe(step);
+  relieve();
+}
+
+void Run::relieve() {
+  const bool relieved = [&] {
+    const auto relief = timer(Stage::relief);
+    return relieve_farthest(context_, options_);
+  }();
+  if (relieved) observe({.what = StepKind::relief});
+}
+
+// Splits what has to be split, then takes the look at the whole mesh that the trials did without.
+void Run::end(Round& round, const Tally& before, Manner& manner) {
+  refine_while_short();
+  BaseComplex after;
+  const Refusal refusal = check_structure(context_, bc_.components.size(), after);
+  last_round_failed_ = refusal != Refusal::none;
+  if (last_round_failed_) {
+    take_back(round, before, refusal, manner);
+    return;
+  }
+  round.commit();
+  bc_ = std::move(after);
+  bc_of_this_mesh_ = true;
+  if (static_cast<double>(bc_.components.size()) <= kVerifyEvery * verified_components_) verify();
+  if (mesh_.cell_slots() > 4 * mesh_.n_cells()) compact();
+  record();
+}
+
+// Of several the guilty one is not known: they are tried again one by one.
+void Run::take_back(Round& round, const Tally& before, Refusal refusal, Manner& manner) {
+  round.take_back();
+  distance_ = SurfaceDistance(mesh_, reference_);
+  context_.labels.reset();
+  bc_of_this_mesh_ = true;
+  not_refinable_.clear();
+  observed_.clear();
+  step_ = before.step;
+  report_.refined = before.refined;
+  const auto refuse = [&](TrialCounts& counts, int accepted_before) {
+    counts.refused[static_cast<int>(refusal)] += counts.accepted - accepted_before;
+    counts.accepted = accepted_before;
+  };
+  refuse(report_.sheets, before.sheets);
+  refuse(report_.chords, before.chords);
+  if (round.collapses().size() == 1) {
+    manner.memory.failed(mesh_, round.collapses().front(), {}, step_);
+  }
+}
+
+}  // namespace hexweft::detail
