@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <sstream>
 #include <string>
 #include <utility>
 
@@ -17,11 +18,12 @@
 namespace hexweft {
 namespace {
 
-/// Embree's spatial index over triangles, in single precision about a centre. Only a filter.
+/// Embree's spatial index over triangles, in single precision about a centre and in units of the
+/// size. Only a filter.
 class TriangleIndex {
  public:
   TriangleIndex(const Eigen::Matrix3Xd& points, const std::vector<std::array<int, 3>>& triangles,
-                const Eigen::Vector3d& centre);
+                const Eigen::Vector3d& centre, double size);
   TriangleIndex(const TriangleIndex&) = delete;
   TriangleIndex& operator=(const TriangleIndex&) = delete;
   ~TriangleIndex() {
@@ -48,15 +50,26 @@ void check(const Eigen::Matrix3Xd& points, const std::vector<std::array<int, 3>>
   }
 }
 
+/// Fourth powers of distances must neither vanish nor overflow.
+double check_size(double diagonal) {
+  constexpr double kLeast = 1e-60, kMost = 1e60;
+  if (diagonal >= kLeast && diagonal <= kMost) return diagonal;
+  std::ostringstream message;
+  message << "the diagonal of the reference surface's bounding box is " << diagonal << ", expected "
+          << kLeast << " to " << kMost;
+  throw InputError(message.str());
+}
+
 TriangleIndex::TriangleIndex(const Eigen::Matrix3Xd& points,
                              const std::vector<std::array<int, 3>>& triangles,
-                             const Eigen::Vector3d& centre)
+                             const Eigen::Vector3d& centre, double size)
     : device_(rtcNewDevice("threads=1")), scene_(rtcNewScene(device_)) {
   RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
   auto* p = static_cast<float*>(rtcSetNewGeometryBuffer(
       geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), points.cols()));
   for (Eigen::Index v = 0; v < points.cols(); ++v) {
-    for (int k = 0; k < 3; ++k) p[3 * v + k] = static_cast<float>(points(k, v) - centre[k]);
+    for (int k = 0; k < 3; ++k)
+      p[3 * v + k] = static_cast<float>((points(k, v) - centre[k]) / size);
   }
   auto* t = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0,
                                                            RTC_FORMAT_UINT3, 3 * sizeof(unsigned),
@@ -81,10 +94,10 @@ struct ReferenceSurface::Impl {
         lower(points.rowwise().minCoeff()),
         upper(points.rowwise().maxCoeff()),
         centre((lower + upper) / 2),
-        diagonal((upper - lower).norm()),
+        diagonal(check_size((upper - lower).stableNorm())),
         mesh(make_triangle_mesh(points, triangles, first_vertex)),
         normals(corner_normals(mesh, first_vertex, feature_angle_deg)),
-        index(points, triangles, centre),
+        index(points, triangles, centre, diagonal),
         curves(points, find_features(points, triangles, features)) {
     make_facets(feature_angle_deg);
   }
@@ -145,12 +158,15 @@ struct Search {
   const std::vector<Facet>& facets;
   Eigen::Vector3d p;
   const Eigen::Vector3d* hint;
+  double size;     // unit of the index, model units
   double slack;    // bounds the rounding of the index, model units
   double squared;  // of the best distance so far
   int triangle = -1;
   TrianglePoint best{};
 
-  float radius() const { return static_cast<float>(std::sqrt(squared) * (1 + 1e-6) + slack); }
+  float radius() const {
+    return static_cast<float>((std::sqrt(squared) * (1 + 1e-6) + slack) / size);
+  }
 
   bool offer(int id) {
     const Facet& t = facets[id];
@@ -181,12 +197,12 @@ bool offer_triangle(RTCPointQueryFunctionArguments* args) {
 SurfacePoint ReferenceSurface::Impl::query(const Eigen::Vector3d& p, const Eigen::Vector3d* hint,
                                            double reach, int near) const {
   const Eigen::Vector3d local = p - centre;
-  Search<Facet> search{facets, p, hint, 1e-6 * (diagonal + local.norm()), reach * reach};
+  Search<Facet> search{facets, p, hint, diagonal, 1e-6 * (diagonal + local.norm()), reach * reach};
   if (near >= 0) search.offer(near);
   RTCPointQuery query;
-  query.x = static_cast<float>(local[0]);
-  query.y = static_cast<float>(local[1]);
-  query.z = static_cast<float>(local[2]);
+  query.x = static_cast<float>(local[0] / diagonal);
+  query.y = static_cast<float>(local[1] / diagonal);
+  query.z = static_cast<float>(local[2] / diagonal);
   query.time = 0;
   query.radius = search.radius();
   RTCPointQueryContext context;

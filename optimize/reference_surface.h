@@ -37,7 +37,8 @@ class ReferenceSurface {
   /// \param triangles      counter-clockwise from outside
   /// \param feature_angle_deg  (0, 180]: normals are not averaged across edges sharper than this
   /// \param features  which lines and corners to look for
-  /// \throws InputError  without triangles, on a bad index or a coordinate that is not finite
+  /// \throws InputError  without triangles, on a bad index, a coordinate that is not finite, or a
+  ///                     bounding box whose diagonal is outside of [1e-60, 1e60]
   ReferenceSurface(Eigen::Matrix3Xd points, std::vector<std::array<int, 3>> triangles,
                    double feature_angle_deg = 40, const FeatureOptions& features = {});
 

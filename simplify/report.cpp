@@ -93,10 +93,12 @@ int TrialCounts::tried() const { return std::accumulate(refused.begin(), refused
 
 nlohmann::ordered_json to_json(const TrialCounts& c) {
   nlohmann::ordered_json j = {{"tried", c.tried()}, {"accepted", c.accepted}};
+  j["refused"] = nlohmann::ordered_json::object();
   for (int r = 1; r < kRefusals; ++r) {
     if (c.refused[r] > 0) j["refused"][fate(r)] = c.refused[r];
   }
   j["waited"] = c.waited;
+  j["seconds"] = nlohmann::ordered_json::object();
   for (int r = 0; r < kRefusals; ++r) {
     if (c.seconds[r] > 0) j["seconds"][fate(r)] = c.seconds[r];
   }

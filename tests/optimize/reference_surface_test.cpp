@@ -142,5 +142,29 @@ TEST(ReferenceSurface, RefusesWhatIsNoSurface) {
   EXPECT_THROW(ReferenceSurface(p, {{0, 1, 2}}), InputError);
 }
 
+TEST(ReferenceSurface, IsAsExactInAnyUnitOfLength) {
+  const HexMesh mesh = make_octree_like(Shape::blob, 6, 1);
+  const ReferenceSurface one = make_reference_surface(mesh);
+  for (const double unit : {1e-50, 1e-20, 1e20, 1e50}) {
+    HexMesh scaled = mesh;
+    for (VertexHandle v : mesh.vertices()) scaled.set_point(v, unit * mesh.point(v));
+    const ReferenceSurface surface = make_reference_surface(scaled);
+    Random random(4);
+    for (int i = 0; i < 100; ++i) {
+      const Eigen::Vector3d p = random.in_cube(2);
+      const SurfacePoint a = one.closest(p), b = surface.closest(unit * p);
+      EXPECT_NEAR(b.distance / unit, a.distance, 1e-12) << unit;
+    }
+  }
+}
+
+TEST(ReferenceSurface, RefusesSizesOfWhichPowersVanishOrOverflow) {
+  for (const double unit : {0.0, 1e-80, 1e-200, 1e80, 1e200}) {
+    HexMesh mesh = make_grid({1, 1, 1});
+    for (VertexHandle v : mesh.vertices()) mesh.set_point(v, unit * mesh.point(v));
+    EXPECT_THROW(make_reference_surface(mesh), InputError) << unit;
+  }
+}
+
 }  // namespace
 }  // namespace hexweft
