@@ -17,7 +17,7 @@ namespace hexweft::detail {
 /// changed. Unless it is committed, a round is undone as a whole.
 class Round {
  public:
-  explicit Round(HexMesh& mesh) : mesh_(mesh), change_(mesh) {}
+  explicit Round(HexMesh& mesh) : mesh_(mesh), change_(mesh), cells_seen_(mesh.cell_slots()) {}
 
   bool empty() const { return collapses_.empty(); }
   const std::vector<CollapsePlan>& collapses() const { return collapses_; }
@@ -28,7 +28,7 @@ class Round {
                                             [&](VertexHandle v) { return touched_[v.idx] != 0; });
   }
 
-  /// \param plan  was carried out
+  /// \param plan  was carried out, maybe with splits of sheets anywhere
   void add(CollapsePlan plan) {
     touched_.resize(mesh_.vertex_slots(), 0);
     std::vector<VertexHandle> left;
@@ -37,6 +37,11 @@ class Round {
       if (mesh_.is_live(v)) left.push_back(v);
     }
     for (CellHandle c : cells_around(mesh_, left, 1)) {
+      for (VertexHandle v : mesh_.vertices(c)) touched_[v.idx] = 1;
+    }
+    for (; cells_seen_ < mesh_.cell_slots(); ++cells_seen_) {  // of splits
+      const CellHandle c(cells_seen_);
+      if (!mesh_.is_live(c)) continue;
       for (VertexHandle v : mesh_.vertices(c)) touched_[v.idx] = 1;
     }
     collapses_.push_back(std::move(plan));
@@ -50,6 +55,7 @@ class Round {
   Transaction change_;
   std::vector<CollapsePlan> collapses_;
   std::vector<char> touched_;  // by vertex
+  int cells_seen_;             // slots
 };
 
 }  // namespace hexweft::detail
