@@ -34,11 +34,24 @@ class Assignment {
         curves_(curves),
         graph_(points, quads),
         near_(points.cols()),
-        labels_(points.cols()) {}
+        near_line_(curves.n_lines()),
+        ends_(curves.n_lines(), {-1, -1}),
+        vertex_of_corner_(curves.features().corners.size(), -1),
+        reached_(points.cols()),
+        labels_(points.cols()) {
+    find_ends();
+  }
 
   std::vector<FeatureLabel> run();
 
  private:
+  struct Reached {
+    double cost = -1, length = 0;
+    int before = -1;
+    bool done = false;
+  };
+
+  void find_ends();
   bool find_near_lines();
   void claim_corners();
   const CurvePoint* near(int v, int line) const;
@@ -52,21 +65,39 @@ class Assignment {
   }
   bool is_between(int v, int line, const Anchor& from, const Anchor& to) const;
   double penalty(int line, int v, const PatchEdge& e) const;
-  std::vector<int> path(int line, const Anchor& from, const Anchor& to) const;
+  std::vector<int> path(int line, const Anchor& from, const Anchor& to);
 
   const Eigen::Matrix3Xd& points_;
   int n_free_;
   const FeatureCurves& curves_;
   PatchGraph graph_;
   std::vector<std::vector<CurvePoint>> near_;  // lines near each vertex
+  std::vector<std::vector<int>> near_line_;    // vertices near each line, ascending
+  std::vector<std::array<int, 2>> ends_;       // corners at both ends of an open line
+  std::vector<int> vertex_of_corner_;          // -1: not claimed
+  std::vector<Reached> reached_;               // of a search; between searches as at the start
+  std::vector<int> touched_;                   // by a search
   std::vector<FeatureLabel> labels_;
 };
+
+void Assignment::find_ends() {
+  const SurfaceFeatures& f = curves_.features();
+  const auto corner_at = [&](int point) {
+    const auto at = std::lower_bound(f.corners.begin(), f.corners.end(), point);
+    return at == f.corners.end() || *at != point ? -1 : static_cast<int>(at - f.corners.begin());
+  };
+  for (int line = 0; line < curves_.n_lines(); ++line) {
+    const FeatureLine& l = f.lines[line];
+    if (!l.closed) ends_[line] = {corner_at(l.points.front()), corner_at(l.points.back())};
+  }
+}
 
 bool Assignment::find_near_lines() {
   bool any = false;
   for (int v = 0; v < points_.cols(); ++v) {
     if (graph_.mean_length(v) == 0) continue;
     near_[v] = curves_.within(points_.col(v), kReach * graph_.mean_length(v));
+    for (const CurvePoint& c : near_[v]) near_line_[c.line].push_back(v);
     any |= !near_[v].empty();
   }
   return any;
@@ -80,20 +111,20 @@ const CurvePoint* Assignment::near(int v, int line) const {
 
 /// Nearest pairs first, each corner and each vertex once.
 void Assignment::claim_corners() {
-  const auto n = static_cast<int>(curves_.features().corners.size());
   std::vector<std::tuple<double, int, int>> pairs;  // distance, corner, vertex
   for (int v = 0; v < points_.cols(); ++v) {
-    if (near_[v].empty()) continue;
-    for (int c = 0; c < n; ++c) {
-      const double d = (curves_.corner(c) - points_.col(v)).norm();
-      if (d <= kReach * graph_.mean_length(v)) pairs.emplace_back(d, c, v);
+    for (const CurvePoint& on : near_[v]) {  // a corner within reach is an end of a line within it
+      for (const int c : ends_[on.line]) {
+        if (c < 0) continue;
+        const double d = (curves_.corner(c) - points_.col(v)).norm();
+        if (d <= kReach * graph_.mean_length(v)) pairs.emplace_back(d, c, v);
+      }
     }
   }
   std::sort(pairs.begin(), pairs.end());
-  std::vector<char> claimed(n, 0);
   for (const auto& [distance, c, v] : pairs) {
-    if (claimed[c] || labels_[v].is_corner()) continue;
-    claimed[c] = 1;
+    if (vertex_of_corner_[c] >= 0 || labels_[v].is_corner()) continue;
+    vertex_of_corner_[c] = v;
     labels_[v].corner = c;
   }
 }
@@ -118,8 +149,8 @@ void Assignment::add_anchors_of_loop(int line, std::vector<Anchor>& anchors) con
     const Eigen::Vector3d p = curves_.at(line, arc).point;
     int best = -1;
     double best_distance = 0;
-    for (int v = 0; v < points_.cols(); ++v) {
-      if (labels_[v].is_any() || !near(v, line)) continue;
+    for (const int v : near_line_[line]) {
+      if (labels_[v].is_any()) continue;
       const double d = (points_.col(v) - p).norm();
       if (d > graph_.mean_length(v) || (best >= 0 && d >= best_distance)) continue;
       if (near(v, line)->distance > 0.5 * kReach * graph_.mean_length(v) || !follows(v, line))
@@ -134,19 +165,18 @@ void Assignment::add_anchors_of_loop(int line, std::vector<Anchor>& anchors) con
 std::vector<Anchor> Assignment::anchors(int line) const {
   constexpr double kOnLine = 0.3;  // of an edge length
   std::vector<Anchor> result;
-  const FeatureLine& l = curves_.features().lines[line];
-  const auto& corners = curves_.features().corners;
-  for (int v = 0; v < points_.cols(); ++v) {
-    if (labels_[v].is_corner() && !l.closed) {
-      const int point = corners[labels_[v].corner];
-      if (point == l.points.front()) result.push_back({0, v});
-      if (point == l.points.back()) result.push_back({curves_.length(line), v});
-    } else if (v >= n_free_ && !labels_[v].is_any() && follows(v, line)) {
-      const CurvePoint* on = near(v, line);
-      if (on->distance <= kOnLine * graph_.mean_length(v)) result.push_back({on->at, v});
-    }
+  for (int end = 0; end < 2; ++end) {
+    const int corner = ends_[line][end];
+    const int v = corner < 0 ? -1 : vertex_of_corner_[corner];
+    if (v >= 0) result.push_back({end == 0 ? 0 : curves_.length(line), v});
   }
-  if (l.closed && result.size() < 3) add_anchors_of_loop(line, result);
+  const auto& nearby = near_line_[line];
+  for (auto v = std::lower_bound(nearby.begin(), nearby.end(), n_free_); v != nearby.end(); ++v) {
+    if (labels_[*v].is_any() || !follows(*v, line)) continue;
+    const CurvePoint* on = near(*v, line);
+    if (on->distance <= kOnLine * graph_.mean_length(*v)) result.push_back({on->at, *v});
+  }
+  if (curves_.closed(line) && result.size() < 3) add_anchors_of_loop(line, result);
   std::sort(result.begin(), result.end());
   return result;
 }
@@ -176,17 +206,13 @@ double Assignment::penalty(int line, int v, const PatchEdge& e) const {
 
 /// The vertices of the chain from one anchor to the next, by Dijkstra's algorithm; empty if there
 /// is none that keeps to the line.
-std::vector<int> Assignment::path(int line, const Anchor& from, const Anchor& to) const {
+std::vector<int> Assignment::path(int line, const Anchor& from, const Anchor& to) {
   constexpr double kLongest = 1.5;  // of the line's stretch
-  struct Reached {
-    double cost = -1, length = 0;
-    int before = -1;
-    bool done = false;
-  };
-  std::vector<Reached> reached(points_.cols());
+  std::vector<Reached>& reached = reached_;
   std::priority_queue<std::pair<double, int>, std::vector<std::pair<double, int>>, std::greater<>>
       front;
   reached[from.vertex].cost = 0;
+  touched_.assign(1, from.vertex);
   front.emplace(0, from.vertex);
   while (!front.empty() && !reached[to.vertex].done) {
     const int v = front.top().second;
@@ -198,15 +224,18 @@ std::vector<int> Assignment::path(int line, const Anchor& from, const Anchor& to
       if (next.done || !is_between(e.to, line, from, to)) continue;
       const double cost = reached[v].cost + e.length * penalty(line, v, e);
       if (next.cost >= 0 && next.cost <= cost) continue;
+      if (next.cost < 0) touched_.push_back(e.to);
       next = {cost, reached[v].length + e.length, v, false};
       front.emplace(cost, e.to);
     }
   }
-  const Reached& end = reached[to.vertex];
+  const Reached end = reached[to.vertex];
   const double most = kLongest * stretch(line, from, to) + graph_.mean_length(from.vertex);
-  if (!end.done || from.vertex == to.vertex || end.length > most) return {};
   std::vector<int> vertices;
-  for (int v = to.vertex; v >= 0; v = reached[v].before) vertices.push_back(v);
+  if (end.done && from.vertex != to.vertex && end.length <= most) {
+    for (int v = to.vertex; v >= 0; v = reached[v].before) vertices.push_back(v);
+  }
+  for (const int v : touched_) reached[v] = {};
   return vertices;
 }
 

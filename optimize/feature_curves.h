@@ -2,7 +2,9 @@
 /// The feature lines of a surface as curves: closest points, arc length, tangents.
 #pragma once
 
+#include <compare>
 #include <limits>
+#include <unsupported/Eigen/BVH>
 #include <vector>
 
 #include <Eigen/Core>
@@ -21,8 +23,8 @@ struct CurvePoint {
   int line = -1;  ///< of equally close ones the lowest; -1 if there is none
 };
 
-/// Stretches of a few segments have a box each, and lines have one: queries pass over what is too
-/// far. Const calls may run at the same time on several threads.
+/// Stretches of a few segments have a box each, lines have one, and the stretches of all lines are in
+/// a tree: queries pass over what is too far. Const calls may run at the same time on several threads.
 class FeatureCurves {
  public:
   /// \param points  3 × #points, model units
@@ -47,10 +49,17 @@ class FeatureCurves {
     std::vector<Eigen::AlignedBox3d> boxes;  // of a few segments each
     Eigen::AlignedBox3d box;
   };
+  struct Stretch {
+    int line, first;  // segment
+    friend constexpr auto operator<=>(const Stretch&, const Stretch&) = default;
+  };
+  using Tree = Eigen::KdBVH<double, 3, Stretch>;
   void look_at(int line, const Eigen::Vector3d& p, CurvePoint& best) const;
+  void look_at(const Stretch& stretch, const Eigen::Vector3d& p, CurvePoint& best) const;
 
   SurfaceFeatures features_;
   std::vector<Curve> curves_;
+  Tree stretches_;
   std::vector<Eigen::Vector3d> corners_;
 };
 

@@ -12,17 +12,11 @@
 #include "optimize/smoothing_passes.h"
 #include "optimize/surface_distance.h"
 #include "ovm/errors.h"
+#include "ovm/neighborhood.h"
 #include "ovm/transaction.h"
 
 namespace hexweft {
 namespace {
-
-std::vector<CellHandle> all_cells(const HexMesh& mesh) {
-  std::vector<CellHandle> cells;
-  cells.reserve(mesh.n_cells());
-  for (CellHandle c : mesh.cells()) cells.push_back(c);
-  return cells;
-}
 
 std::vector<double> quality(const HexMesh& mesh, const std::vector<CellHandle>& cells) {
   const Region region = make_region(mesh, cells);

@@ -10,6 +10,7 @@
 #include "ovm/edit/insert_sheet.h"
 #include "ovm/errors.h"
 #include "ovm/generators.h"
+#include "ovm/neighborhood.h"
 
 namespace hexweft {
 namespace {
@@ -204,9 +205,7 @@ HexMesh make_octree_like(const Solid& solid, const OctreeLikeOptions& options) {
   const double edge_length = h / k;
   for (VertexHandle v : mesh.vertices()) mesh.set_point(v, low + edge_length * mesh.point(v));
 
-  std::vector<CellHandle> all;
-  for (CellHandle c : mesh.cells()) all.push_back(c);
-  insert_sheet(mesh, all, {.depth_rel = 0.6, .include_boundary = true});
+  insert_sheet(mesh, all_cells(mesh), {.depth_rel = 0.6, .include_boundary = true});
   mesh.collect_garbage();
   detail::fit_to_solid(mesh, solid, edge_length);
   return mesh;

@@ -5,6 +5,7 @@
 #include "ovm/detail/guarded_smoothing.h"
 #include "ovm/edit/insert_sheet.h"
 #include "ovm/generators.h"
+#include "ovm/neighborhood.h"
 #include "ovm/transaction.h"
 
 namespace hexweft {
@@ -73,8 +74,7 @@ int insert_random_sheets(HexMesh& mesh, int n, unsigned seed) {
   const auto below = [&](int bound) { return static_cast<int>(random() % bound); };
   int n_inserted = 0;
   for (int trial = 0; trial < 10 * n && n_inserted < n; ++trial) {
-    std::vector<CellHandle> live;
-    for (CellHandle c : mesh.cells()) live.push_back(c);
+    const std::vector<CellHandle> live = all_cells(mesh);
     if (live.empty()) break;
     const CellHandle center = live[below(static_cast<int>(live.size()))];
     const int n_rings = 1 + below(3);

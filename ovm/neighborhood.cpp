@@ -16,6 +16,13 @@ std::array<HalfEdgeHandle, 4> halfedges(const HexMesh& mesh, HalfFaceHandle hf) 
   return result;
 }
 
+std::vector<CellHandle> all_cells(const HexMesh& mesh) {
+  std::vector<CellHandle> cells;
+  cells.reserve(mesh.n_cells());
+  for (CellHandle c : mesh.cells()) cells.push_back(c);
+  return cells;
+}
+
 HalfFaceHandle find_halfface_in_cell(const HexMesh& mesh, CellHandle c, const QuadVertices& quad) {
   for (HalfFaceHandle hf : mesh.halffaces(c)) {
     const auto v = mesh.vertices(hf);

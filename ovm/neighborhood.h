@@ -1,5 +1,5 @@
 /// \file
-/// Walks between neighbours that need no storage of the mesh: within a cell, over a sheet, round a
+/// Lists of elements, and walks between neighbours that need no storage of the mesh: within a cell, over a sheet, round a
 /// vertex. A cell's sides are side_at(c, axis, 0) and side_at(c, axis, 1), back and front of its
 /// local x, y and z.
 #pragma once
@@ -22,6 +22,9 @@ inline HalfFaceHandle opposite_in_cell(HalfFaceHandle hf) { return HalfFaceHandl
 /// The half-edges of a side, half-edge i from its vertex i to vertex i + 1, counter-clockwise from
 /// outside; the next one of half-edge i is (i + 1) % 4.
 std::array<HalfEdgeHandle, 4> halfedges(const HexMesh& mesh, HalfFaceHandle hf);
+
+/// The live cells, ascending.
+std::vector<CellHandle> all_cells(const HexMesh& mesh);
 
 /// The side of c with these vertices in any order, invalid if there is none.
 HalfFaceHandle find_halfface_in_cell(const HexMesh& mesh, CellHandle c, const QuadVertices& quad);

@@ -36,7 +36,7 @@ class FailureMemory {
     Failure failure;
   };
 
-  std::unordered_map<std::size_t, Failure> failures_;            // by plan
+  std::unordered_map<std::size_t, Failure> failures_;           // by plan
   std::unordered_map<std::size_t, std::vector<Cause>> causes_;  // by the least of their groups
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "ovm/neighborhood.h"
 #include "ovm/quality.h"
 #include "ovm/topology_check.h"
 #include "simplify/feature_targets.h"
@@ -113,7 +114,6 @@ TrialResult collapse_and_relax(TrialContext& context, const SingularityGraph& gr
 
 void commit(TrialContext& context, Transaction& change) {
   context.distance.commit();
-  context.labels.reset();
   change.commit();
 }
 
@@ -171,8 +171,7 @@ bool relieve_farthest(TrialContext& context, const SimplifyOptions& options) {
 
 bool relax_all(TrialContext& context, const SimplifyOptions& options) {
   HexMesh& mesh = context.mesh;
-  std::vector<CellHandle> all;
-  for (CellHandle c : mesh.cells()) all.push_back(c);
+  const std::vector<CellHandle> all = all_cells(mesh);
   ParametrizationOptions p = options.parametrization;
   p.min_scaled_jacobian = std::min(options.min_scaled_jacobian, measure_quality(mesh, all).least);
   Transaction attempt(mesh);
@@ -234,6 +233,7 @@ TrialResult try_collapse(TrialContext& context, const BaseComplex& bc, const Col
   result.refusal = check_structure(context, bc.components.size(), result.base_complex);
   if (result.accepted()) {
     commit(context, trial);
+    context.labels.reset();
   } else {
     context.distance.rollback();
     result.base_complex = {};

@@ -28,7 +28,8 @@ struct TrialContext {
   /// Up to so many cells trials may split sheets, and up to what there was before the collapse.
   int most_cells = 0;
   StageClock* clock = nullptr;  ///< told of the stages of a trial, if any
-  /// Features of the mesh's vertices, where they have been asked for since it changed last.
+  /// Features of the mesh's vertices, once they have been asked for. Like the graph that
+  /// try_collapse_locally() is given they may be out of date where the mesh has changed since.
   std::optional<std::vector<FeatureLabel>> labels = {};
 };
 
@@ -52,7 +53,8 @@ TrialResult try_collapse(TrialContext& context, const BaseComplex& bc, const Col
 
 /// The same but for the look at the whole mesh, which costs more than many a trial: the caller makes up
 /// for it with check_structure(), for several collapses at once, and must be able to undo them.
-/// \param graph  of the mesh; may be out of date beyond the cells at the plan's members
+/// \param graph  of the mesh; may be out of date beyond the cells at the plan's members, as may
+///               TrialContext::labels
 TrialResult try_collapse_locally(TrialContext& context, const SingularityGraph& graph,
                                  const CollapsePlan& plan, const SimplifyOptions& options);
 

@@ -3,6 +3,7 @@
 
 #include "optimize/hausdorff.h"
 #include "optimize/smooth.h"
+#include "ovm/neighborhood.h"
 #include "ovm/quality.h"
 #include "tools/cli.h"
 #include "tools/energy_argument.h"
@@ -25,8 +26,7 @@ struct Request {
 // What --untangle does: the whole mesh at once, and again from where that ended, until nothing is
 // inverted or it gets no better.
 void untangle(HexMesh& mesh, const ReferenceSurface& surface, const SmoothingOptions& options) {
-  std::vector<CellHandle> cells;
-  for (CellHandle c : mesh.cells()) cells.push_back(c);
+  const std::vector<CellHandle> cells = all_cells(mesh);
   ParametrizationOptions o = options.parametrization;
   o.max_iterations = 1;
   int inverted = summarize_quality(mesh, 0).n_inverted;

@@ -55,7 +55,7 @@ class Run {
   bool collapse_some(Manner& manner, bool patient);
   int most_in_round() const;
   void collapse_sheets(const CandidateQueues& q, Manner& manner, bool patient, Round& round);
-  void collapse_chord(const CandidateQueues& q, Manner& manner, bool patient, Round& round);
+  void collapse_chords(const CandidateQueues& q, Manner& manner, bool patient, Round& round);
   bool attempt(CollapsePlan plan, TrialCounts& counts, const SimplifyProgress& step, Manner& manner,
                bool patient, Round& round);
   void accept(const SimplifyProgress& step);

@@ -10,6 +10,7 @@
 #include "optimize/hausdorff.h"
 #include "optimize/smooth.h"
 #include "ovm/errors.h"
+#include "ovm/neighborhood.h"
 #include "ovm/quality.h"
 #include "ovm/topology_check.h"
 #include "simplify/detail/run.h"
@@ -80,10 +81,7 @@ RunState Run::state() {
 void Run::observe(SimplifyProgress p) {
   if (!options_.observer) return;
   const auto reporting = timer(Stage::reporting);
-  std::vector<CellHandle> all;
-  all.reserve(mesh_.n_cells());
-  for (const CellHandle c : mesh_.cells()) all.push_back(c);
-  const Quality now = measure_quality(mesh_, all);
+  const Quality now = measure_quality(mesh_, all_cells(mesh_));
   p.step = step_;
   p.hexahedra = mesh_.n_cells();
   p.components = static_cast<int>(bc_.components.size());

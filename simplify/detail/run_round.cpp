@@ -1,4 +1,6 @@
 // The collapses of a run.
+#include <algorithm>
+
 #include "simplify/detail/round.h"
 #include "simplify/detail/run.h"
 
@@ -7,6 +9,8 @@ namespace {
 
 // More would go by a ranking that is too old.
 constexpr int kMostInRound = 8;
+// Chords take turns with sheets: one at a time, and where there are many components one for so many.
+constexpr int kComponentsPerChord = 500;
 // A round ends where sheets have to be split, at this share of the wanted count of cells.
 constexpr double kShortOfCells = 0.85;
 // Below so many times the components that are asked for they are counted after every collapse.
@@ -16,8 +20,8 @@ constexpr double kVerifyEvery = 0.5;
 
 }  // namespace
 
-// Tries candidates in order; sheets, and one chord where no sheet can be collapsed. A patient look
-// leaves out what failed lately. \return whether the loop should go on from the start
+// Tries candidates in order; sheets, and chords where no sheet can be collapsed. A patient look leaves
+// out what failed lately. \return whether the loop should go on from the start
 bool Run::collapse_some(Manner& manner, bool patient) {
   if (&manner == &bold_ && !options_.bold.wanted) return false;
   if (!bc_of_this_mesh_) {
@@ -29,11 +33,12 @@ bool Run::collapse_some(Manner& manner, bool patient) {
     const auto ranking = timer(Stage::ranking);
     return make_queues(mesh_, bc_, options_, options_.ranking);
   }();
+  context_.labels.reset();
   const Tally before = tally();
   Round round(mesh_);
   in_round_ = true;
   collapse_sheets(q, manner, patient, round);
-  if (round.empty()) collapse_chord(q, manner, patient, round);
+  if (round.empty()) collapse_chords(q, manner, patient, round);
   if (!round.empty()) end(round, before, manner);
   in_round_ = false;
   return !round.empty() || should_stop();
@@ -65,7 +70,9 @@ void Run::collapse_sheets(const CandidateQueues& q, Manner& manner, bool patient
   }
 }
 
-void Run::collapse_chord(const CandidateQueues& q, Manner& manner, bool patient, Round& round) {
+void Run::collapse_chords(const CandidateQueues& q, Manner& manner, bool patient, Round& round) {
+  const int fair = static_cast<int>(bc_.components.size()) / kComponentsPerChord;
+  const int most = std::clamp(fair, 1, most_in_round());
   for (const Candidate& c : q.chord_queue) {
     if (should_stop()) return;
     const Chord& chord = q.chords[c.index];
@@ -78,7 +85,8 @@ void Run::collapse_chord(const CandidateQueues& q, Manner& manner, bool patient,
                                    .kind = chord.closed ? "closed" : "open",
                                    .width = plan.width,
                                    .chord_terms = terms};
-    if (attempt(std::move(plan), report_.chords, step, manner, patient, round)) return;
+    if (!attempt(std::move(plan), report_.chords, step, manner, patient, round)) continue;
+    if (std::ssize(round.collapses()) >= most || is_short_of_cells(kShortOfCells)) return;
   }
 }
 
@@ -149,7 +157,6 @@ void Run::end(Round& round, const Tally& before, Manner& manner) {
 void Run::take_back(Round& round, const Tally& before, Refusal refusal, Manner& manner) {
   round.take_back();
   distance_ = SurfaceDistance(mesh_, reference_);
-  context_.labels.reset();
   bc_of_this_mesh_ = true;
   not_refinable_.clear();
   observed_.clear();

@@ -161,6 +161,30 @@ TEST(FeatureCurves, ClosestPointsAreTheBruteForceOnes) {
   }
 }
 
+TEST(FeatureCurves, WithinReachIsEveryLineThatIsSoClose) {
+  for (const HexMesh& mesh : {make_l_shape(4), make_torus({.n_around = 24, .round_section = false}),
+                              make_o_grid({.n_core = 8, .n_layers = 8})}) {
+    const ReferenceSurface s = make_reference_surface(mesh);
+    const FeatureCurves& curves = s.curves();
+    ASSERT_GE(curves.n_lines(), 2);
+    Random random(7);
+    for (int i = 0; i < 300; ++i) {
+      const Eigen::Vector3d p = random.in_cube(4);
+      for (const double reach : {0.05, 0.5, 3.0}) {
+        std::vector<int> found, expected;
+        for (const CurvePoint& c : curves.within(p, reach)) {
+          found.push_back(c.line);
+          EXPECT_EQ(c.distance, curves.closest(p, c.line).distance);
+        }
+        for (int line = 0; line < curves.n_lines(); ++line) {
+          if (curves.closest(p, line).distance <= reach) expected.push_back(line);
+        }
+        EXPECT_EQ(found, expected);
+      }
+    }
+  }
+}
+
 TEST(FeatureCurves, AreEmptyWithoutFeatures) {
   const ReferenceSurface s = make_reference_surface(make_ball(6));
   EXPECT_EQ(s.curves().closest({1, 0, 0}).line, -1);

@@ -13,6 +13,7 @@
 #include "optimize/region.h"
 #include "ovm/generators.h"
 #include "ovm/hex_mesh.h"
+#include "ovm/neighborhood.h"
 #include "ovm/quality.h"
 
 namespace hexweft {
@@ -37,12 +38,6 @@ class Random {
  private:
   std::mt19937_64 engine_;
 };
-
-inline std::vector<CellHandle> all_cells(const HexMesh& mesh) {
-  std::vector<CellHandle> cells;
-  for (CellHandle c : mesh.cells()) cells.push_back(c);
-  return cells;
-}
 
 /// Moves every vertex, those on the boundary only if asked to, by up to `amount` along each axis.
 inline void perturb(HexMesh& mesh, double amount, bool boundary_too, unsigned seed) {

@@ -17,7 +17,10 @@ struct Bench {
       : mesh(std::move(m)),
         reference(make_reference_surface(mesh)),
         distance(mesh, reference),
-        context{mesh, reference, distance, summarize_topology(mesh),
+        context{mesh,
+                reference,
+                distance,
+                summarize_topology(mesh),
                 0.01 * reference.bounding_box_diagonal(),
                 0.01 * reference.bounding_box_diagonal()} {}
   std::optional<DualSheet> choose(const RefineOptions& o,

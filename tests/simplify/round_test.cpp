@@ -28,53 +28,55 @@ bool is_as_before(const HexMesh& before, const HexMesh& mesh, const CollapsePlan
   });
 }
 
+// How many plans a round is clear of, all of which must have their cells as they were before it.
+struct Seen {
+  int clear = 0, touched = 0;
+  void look_at(const Round& round, const HexMesh& before, const HexMesh& now,
+               const std::vector<CollapsePlan>& plans) {
+    for (const CollapsePlan& plan : plans) {
+      if (!round.is_clear_of(plan)) {
+        ++touched;
+        continue;
+      }
+      ++clear;
+      EXPECT_TRUE(is_as_before(before, now, plan));
+    }
+  }
+};
+
 TEST(Round, IsClearOfPlansWhoseCellsNothingHasTouched) {
   HexMesh mesh = make_octree_like(Shape::sphere, 7);
   const HexMesh before = mesh;
   const MeshDump dump(mesh);
   const BaseComplex bc = extract_base_complex(mesh);
   const auto plans = all_plans(mesh, bc, 3);
-  int clear = 0, touched = 0;
+  Seen seen;
   for (std::size_t i = 0; i < plans.size(); i += 7) {
     Round round(mesh);
     for (const CollapsePlan& plan : plans) EXPECT_TRUE(round.is_clear_of(plan));
     apply_plan(mesh, plans[i], default_targets(mesh, bc.graph, plans[i]));
     round.add(plans[i]);
-    for (const CollapsePlan& plan : plans) {
-      if (!round.is_clear_of(plan)) {
-        ++touched;
-        continue;
-      }
-      ++clear;
-      EXPECT_TRUE(is_as_before(before, mesh, plan));
-    }
+    seen.look_at(round, before, mesh, plans);
     round.take_back();
     EXPECT_TRUE(MeshDump(mesh) == dump);
   }
-  EXPECT_GT(clear, 0);
-  EXPECT_GT(touched, 0);
+  EXPECT_GT(seen.clear, 0);
+  EXPECT_GT(seen.touched, 0);
 }
 
 TEST(Round, KnowsOfSplitsMadeWithACollapse) {
   HexMesh mesh = make_octree_like(Shape::sphere, 7);
   const HexMesh before = mesh;
   const auto plans = all_plans(mesh, extract_base_complex(mesh), 3);
-  int clear = 0, touched = 0;
+  Seen seen;
   for (const DualSheet& sheet : list_dual_sheets(mesh)) {
     Round round(mesh);
     split_sheet(mesh, sheet);
     round.add({});
-    for (const CollapsePlan& plan : plans) {
-      if (!round.is_clear_of(plan)) {
-        ++touched;
-        continue;
-      }
-      ++clear;
-      EXPECT_TRUE(is_as_before(before, mesh, plan));
-    }
+    seen.look_at(round, before, mesh, plans);
   }
-  EXPECT_GT(clear, 0);
-  EXPECT_GT(touched, 0);
+  EXPECT_GT(seen.clear, 0);
+  EXPECT_GT(seen.touched, 0);
 }
 
 }  // namespace
