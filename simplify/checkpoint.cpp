@@ -42,6 +42,12 @@ Json to_json(const ValenceLimits& v) {
           {"max_angle_deg", v.max_angle_deg}};
 }
 
+Json to_json(const CarefulTrials& t) {
+  return {{"wanted", t.wanted},
+          {"min_scaled_jacobian", t.min_scaled_jacobian},
+          {"mean_scaled_jacobian", t.mean_scaled_jacobian}};
+}
+
 Json to_json(const BoldTrials& r) {
   return {{"wanted", r.wanted},
           {"max_angle_deg", r.max_angle_deg},
@@ -133,6 +139,7 @@ Json lasting_options(const SimplifyOptions& o) {
           {"splits_per_trial", o.splits_per_trial},
           {"max_chord_deviation", o.max_chord_deviation},
           {"valence", to_json(o.valence)},
+          {"careful", to_json(o.careful)},
           {"bold", to_json(o.bold)},
           {"features", static_cast<int>(o.features.mode)},
           {"feature_angle_deg", o.features.angle_deg},

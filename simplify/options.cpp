@@ -17,16 +17,17 @@ void expect(bool holds, const char* name, T value, const char* expected) {
 }  // namespace
 
 void validate(const SimplifyOptions& o) {
+  const auto expect_floor = [](const char* name, double value) {
+    expect(value >= 0 && value < 1, name, value, "[0, 1)");
+  };
   expect(o.hausdorff_limit_rel > 0 && o.hausdorff_limit_rel <= 1, "hausdorff_limit_rel",
          o.hausdorff_limit_rel, "(0, 1]");
-  expect(o.min_scaled_jacobian >= 0 && o.min_scaled_jacobian < 1, "min_scaled_jacobian",
-         o.min_scaled_jacobian, "[0, 1)");
-  expect(o.mean_scaled_jacobian >= 0 && o.mean_scaled_jacobian < 1, "mean_scaled_jacobian",
-         o.mean_scaled_jacobian, "[0, 1)");
-  expect(o.bold.min_scaled_jacobian >= 0 && o.bold.min_scaled_jacobian < 1,
-         "bold.min_scaled_jacobian", o.bold.min_scaled_jacobian, "[0, 1)");
-  expect(o.bold.mean_scaled_jacobian >= 0 && o.bold.mean_scaled_jacobian < 1,
-         "bold.mean_scaled_jacobian", o.bold.mean_scaled_jacobian, "[0, 1)");
+  expect_floor("min_scaled_jacobian", o.min_scaled_jacobian);
+  expect_floor("mean_scaled_jacobian", o.mean_scaled_jacobian);
+  expect_floor("careful.min_scaled_jacobian", o.careful.min_scaled_jacobian);
+  expect_floor("careful.mean_scaled_jacobian", o.careful.mean_scaled_jacobian);
+  expect_floor("bold.min_scaled_jacobian", o.bold.min_scaled_jacobian);
+  expect_floor("bold.mean_scaled_jacobian", o.bold.mean_scaled_jacobian);
   for (const double angle : {o.valence.max_angle_deg, o.bold.max_angle_deg}) {
     expect(angle > 0 && angle <= 360, "max_angle_deg", angle, "(0, 360]");
   }

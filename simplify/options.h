@@ -15,6 +15,13 @@ namespace hexweft {
 
 struct RunState;  // checkpoint.h
 
+/// Before any ordinary trial these are made, with higher floors of quality: poor hexahedra early on lock up what could go later.
+struct CarefulTrials {
+  bool wanted = true;
+  double min_scaled_jacobian = 0.2;   ///< as in SimplifyOptions, where that is not higher
+  double mean_scaled_jacobian = 0.8;  ///< as in SimplifyOptions, where that is not higher
+};
+
 /// Where no ordinary trial succeeds, bold ones are made: the ValenceLimits are wider, and sheets are split within the trial where the surface is left too far away. A boundary edge of
 /// a single cell costs quality: they have floors of their own.
 struct BoldTrials {
@@ -49,6 +56,7 @@ struct SimplifyOptions {
   int splits_per_trial = 0;
   double max_chord_deviation = 0.9;  ///< > 0, D(c) / 3k of a chord that is tried
   ValenceLimits valence = {};
+  CarefulTrials careful = {};
   BoldTrials bold = {};
   FeatureOptions features = {};  ///< sharp edges and corners of the input's surface that are held
   ParametrizationOptions parametrization = {.max_iterations = 4,

@@ -52,6 +52,8 @@ void add_options(CLI::App& app, Request& r) {
   app.add_option("--seconds", r.max_seconds,
                  "Begin nothing more after this long, the smoothing at the end neither");
   app.add_flag("--no-chords", r.no_chords, "Collapse sheets only");
+  app.add_flag("!--no-careful-trials", o.careful.wanted,
+               "Do without the careful trials, which go first and ask for better hexahedra");
   app.add_flag(
       "!--no-bold-trials", o.bold.wanted,
       "Do without the bold trials, which may take away layers under the surface and split sheets");

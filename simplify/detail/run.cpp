@@ -22,6 +22,14 @@ constexpr int kSplitsAtOnce = 5;
 // Up to this share sheets are split when nothing else goes on.
 constexpr double kMostCells = 1.1;
 
+SimplifyOptions careful_options(SimplifyOptions options) {
+  options.min_scaled_jacobian =
+      std::max(options.min_scaled_jacobian, options.careful.min_scaled_jacobian);
+  options.mean_scaled_jacobian =
+      std::max(options.mean_scaled_jacobian, options.careful.mean_scaled_jacobian);
+  return options;
+}
+
 SimplifyOptions bold_options(SimplifyOptions options) {
   options.valence.max_angle_deg = options.bold.max_angle_deg;
   options.valence.max_interior =
@@ -50,8 +58,9 @@ Run::Run(HexMesh& mesh, const SimplifyOptions& options)
                static_cast<int>(kMostCells * options.target_hexahedra_rel * mesh.n_cells()),
                &clock_},
       bc_(extract_base_complex(mesh)),
-      careful_{options, {}},
-      bold_{bold_options(options), {}},
+      careful_{careful_options(options), options.careful.wanted},
+      ordinary_{options},
+      bold_{bold_options(options), options.bold.wanted},
       last_checkpoint_(start_) {
   if (bc_.irregular > 0) {
     throw InputError(fmt::format("{} regions of the base complex are no cuboids", bc_.irregular));
@@ -81,11 +90,11 @@ SimplifyReport Run::run() {
 void Run::loop() {
   // Splitting a sheet comes before a second look at what failed lately: it gives that more room.
   const double long_enough = RefineOptions().min_length_rel;
+  Manner* const in_turn[] = {&careful_, &ordinary_, &bold_};
   refine_while_short();
   while (!should_stop()) {
-    if (collapse_some(careful_, true) || collapse_some(bold_, true)) continue;
-    if (!refine(long_enough, kMostCells) && !collapse_some(careful_, false) &&
-        !collapse_some(bold_, false))
+    if (collapse_some(in_turn, true)) continue;
+    if (!refine(long_enough, kMostCells) && !collapse_some(std::span(in_turn).subspan(1), false))
       break;
   }
 }
@@ -95,9 +104,7 @@ void Run::go_on_relaxed() {
   constexpr int kMost = 3;
   for (int i = 0; i < kMost && n_collapses() > 0 && is_stuck() && relax_mesh(); ++i) {
     const int before = n_collapses();
-    careful_.memory.forget_all();
-    bold_.memory.forget_all();
-    not_refinable_.clear();
+    forget_failures();
     failed_in_a_row_ = 0;
     report_.stopped = StopReason::nothing_left;
     loop();

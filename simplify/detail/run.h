@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <span>
 
 #include "ovm/dual.h"
 #include "simplify/candidates.h"
@@ -29,7 +30,8 @@ class Run {
   /// How trials are made, and which have failed so.
   struct Manner {
     SimplifyOptions options;
-    FailureMemory memory;
+    bool wanted = true;
+    FailureMemory memory = {};
   };
 
   // ---- The loop (run.cpp) ----
@@ -52,7 +54,8 @@ class Run {
   Tally tally() const {
     return {step_, report_.refined, report_.sheets.accepted, report_.chords.accepted};
   }
-  bool collapse_some(Manner& manner, bool patient);
+  bool collapse_some(std::span<Manner* const> in_turn, bool patient);
+  bool collapse_some(const CandidateQueues& q, Manner& manner, bool patient);
   int most_in_round() const;
   void collapse_sheets(const CandidateQueues& q, Manner& manner, bool patient, Round& round);
   void collapse_chords(const CandidateQueues& q, Manner& manner, bool patient, Round& round);
@@ -77,6 +80,7 @@ class Run {
   bool ends_well();
   void end_with_what_may_be_written();
   void replace_mesh(const HexMesh& mesh);
+  void forget_failures();
   void compact();
   void give_back_input();
   void smooth_all();
@@ -93,7 +97,7 @@ class Run {
   BaseComplex bc_;
   bool bc_of_this_mesh_ =
       true;  // else of the mesh before splits, which leave the components as they are
-  Manner careful_, bold_;
+  Manner careful_, ordinary_, bold_;
   std::vector<EdgeHandle> not_refinable_;  // lowest edges of sheets whose split failed on this mesh
   SimplifyReport report_;
   HexMesh verified_;  // the last mesh that may be written; at first the input

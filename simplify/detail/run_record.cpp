@@ -180,8 +180,11 @@ void Run::replace_mesh(const HexMesh& mesh) {
   bc_ = extract_base_complex(mesh_);
   bc_of_this_mesh_ = true;
   distance_ = SurfaceDistance(mesh_, reference_);
-  careful_.memory.forget_all();
-  bold_.memory.forget_all();
+  forget_failures();
+}
+
+void Run::forget_failures() {
+  for (Manner* m : {&careful_, &ordinary_, &bold_}) m->memory.forget_all();
   not_refinable_.clear();
 }
 

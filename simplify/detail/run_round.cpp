@@ -20,10 +20,10 @@ constexpr double kVerifyEvery = 0.5;
 
 }  // namespace
 
-// Tries candidates in order; sheets, and chords where no sheet can be collapsed. A patient look leaves
-// out what failed lately. \return whether the loop should go on from the start
-bool Run::collapse_some(Manner& manner, bool patient) {
-  if (&manner == &bold_ && !options_.bold.wanted) return false;
+// Tries candidates in order; sheets, and chords where no sheet can be collapsed. Where nothing can be
+// in one manner the next one has its turn. A patient look leaves out what failed lately. \return whether
+// the loop should go on from the start
+bool Run::collapse_some(std::span<Manner* const> in_turn, bool patient) {
   if (!bc_of_this_mesh_) {
     const auto extracting = timer(Stage::base_complex);
     bc_ = extract_base_complex(mesh_);
@@ -34,6 +34,13 @@ bool Run::collapse_some(Manner& manner, bool patient) {
     return make_queues(mesh_, bc_, options_, options_.ranking);
   }();
   context_.labels.reset();
+  return std::any_of(in_turn.begin(), in_turn.end(), [&](Manner* manner) {
+    return manner->wanted && (collapse_some(q, *manner, patient) || should_stop());
+  });
+}
+
+// \return whether the mesh has changed, or was for a while
+bool Run::collapse_some(const CandidateQueues& q, Manner& manner, bool patient) {
   const Tally before = tally();
   Round round(mesh_);
   in_round_ = true;
@@ -41,7 +48,7 @@ bool Run::collapse_some(Manner& manner, bool patient) {
   if (round.empty()) collapse_chords(q, manner, patient, round);
   if (!round.empty()) end(round, before, manner);
   in_round_ = false;
-  return !round.empty() || should_stop();
+  return !round.empty();
 }
 
 int Run::most_in_round() const {
@@ -110,7 +117,9 @@ bool Run::attempt(CollapsePlan plan, TrialCounts& counts, const SimplifyProgress
   if (!result.accepted()) {
     ++counts.refused[static_cast<int>(result.refusal)];
     manner.memory.failed(mesh_, plan, result.cause, step_);
-    failed_in_a_row_ += is_geometric(result.refusal) && round.empty();
+    // What fails in the careful manner has another chance.
+    const bool counts_for_end = is_geometric(result.refusal) && &manner != &careful_;
+    failed_in_a_row_ += counts_for_end && round.empty();
     return false;
   }
   ++counts.accepted;

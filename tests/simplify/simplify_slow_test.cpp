@@ -46,6 +46,23 @@ TEST(SimplifySlow, WhatWasCollapsedIsNotLostInTheLastCheck) {
   EXPECT_LT(report.after.components, report.before.components);
 }
 
+TEST(SimplifySlow, CarefulTrialsGoFirstAndOthersFollow) {
+  const HexMesh input = make_solid("stepped-shaft", 20);
+  std::array<SimplifyReport, 2> reports;
+  for (int i = 0; i < 2; ++i) {
+    HexMesh mesh = input;
+    SimplifyOptions options;
+    options.careful = {.wanted = i == 1, .min_scaled_jacobian = 0.9, .mean_scaled_jacobian = 0.99};
+    reports[i] = simplify(mesh, options);
+    expect_good_output(input, mesh, reports[i]);
+    EXPECT_LT(reports[i].after.components, reports[i].before.components);
+  }
+  const auto by_quality = [](const SimplifyReport& r) {
+    return r.sheets.refused[static_cast<int>(Refusal::quality)];
+  };
+  EXPECT_GT(by_quality(reports[1]), by_quality(reports[0]));
+}
+
 TEST(SimplifySlow, BoldTrialsTakesLayersUnderTheSurface) {
   const HexMesh input = make_solid("stepped-shaft", 20);
   std::array<SimplifyReport, 2> reports;
