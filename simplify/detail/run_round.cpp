@@ -117,9 +117,11 @@ bool Run::attempt(CollapsePlan plan, TrialCounts& counts, const SimplifyProgress
   if (!result.accepted()) {
     ++counts.refused[static_cast<int>(result.refusal)];
     manner.memory.failed(mesh_, plan, result.cause, step_);
-    // What fails in the careful manner has another chance.
-    const bool counts_for_end = is_geometric(result.refusal) && &manner != &careful_;
-    failed_in_a_row_ += counts_for_end && round.empty();
+    // Careful trials differ from ordinary ones in their floors only.
+    const bool has_another_chance = &manner == &careful_ && result.refusal == Refusal::quality;
+    if (&manner == &careful_ && !has_another_chance)
+      ordinary_.memory.failed(mesh_, plan, result.cause, step_);
+    failed_in_a_row_ += is_geometric(result.refusal) && !has_another_chance && round.empty();
     return false;
   }
   ++counts.accepted;
