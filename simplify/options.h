@@ -15,15 +15,17 @@ namespace hexweft {
 
 struct RunState;  // checkpoint.h
 
-/// Before any ordinary trial these are made, with higher floors of quality: poor hexahedra early on lock up what could go later.
+/// Before any ordinary trial these are made, with higher floors of quality: poor hexahedra early on
+/// lock up what could go later.
 struct CarefulTrials {
   bool wanted = true;
   double min_scaled_jacobian = 0.2;   ///< as in SimplifyOptions, where that is not higher
   double mean_scaled_jacobian = 0.8;  ///< as in SimplifyOptions, where that is not higher
 };
 
-/// Where no ordinary trial succeeds, bold ones are made: the ValenceLimits are wider, and sheets are split within the trial where the surface is left too far away. A boundary edge of
-/// a single cell costs quality: they have floors of their own.
+/// Where no ordinary trial succeeds, bold ones are made: the ValenceLimits are wider, and sheets are
+/// split within the trial where the surface is left too far away. A boundary edge of a single cell
+/// costs quality: they have floors of their own.
 struct BoldTrials {
   bool wanted = true;
   double max_angle_deg = 360;    ///< as in ValenceLimits

@@ -21,8 +21,8 @@ constexpr double kVerifyEvery = 0.5;
 }  // namespace
 
 // Tries candidates in order; sheets, and chords where no sheet can be collapsed. Where nothing can be
-// in one manner the next one has its turn. A patient look leaves out what failed lately. \return whether
-// the loop should go on from the start
+// in one manner the next one has its turn. A patient look leaves out what failed lately.
+// \return whether the loop should go on from the start
 bool Run::collapse_some(std::span<Manner* const> in_turn, bool patient) {
   if (!bc_of_this_mesh_) {
     const auto extracting = timer(Stage::base_complex);
