@@ -35,12 +35,9 @@ class Assignment {
         graph_(points, quads),
         near_(points.cols()),
         near_line_(curves.n_lines()),
-        ends_(curves.n_lines(), {-1, -1}),
         vertex_of_corner_(curves.features().corners.size(), -1),
         reached_(points.cols()),
-        labels_(points.cols()) {
-    find_ends();
-  }
+        labels_(points.cols()) {}
 
   std::vector<FeatureLabel> run();
 
@@ -51,7 +48,6 @@ class Assignment {
     bool done = false;
   };
 
-  void find_ends();
   bool find_near_lines();
   void claim_corners();
   const CurvePoint* near(int v, int line) const;
@@ -73,24 +69,11 @@ class Assignment {
   PatchGraph graph_;
   std::vector<std::vector<CurvePoint>> near_;  // lines near each vertex
   std::vector<std::vector<int>> near_line_;    // vertices near each line, ascending
-  std::vector<std::array<int, 2>> ends_;       // corners at both ends of an open line
   std::vector<int> vertex_of_corner_;          // -1: not claimed
   std::vector<Reached> reached_;               // of a search; between searches as at the start
   std::vector<int> touched_;                   // by a search
   std::vector<FeatureLabel> labels_;
 };
-
-void Assignment::find_ends() {
-  const SurfaceFeatures& f = curves_.features();
-  const auto corner_at = [&](int point) {
-    const auto at = std::lower_bound(f.corners.begin(), f.corners.end(), point);
-    return at == f.corners.end() || *at != point ? -1 : static_cast<int>(at - f.corners.begin());
-  };
-  for (int line = 0; line < curves_.n_lines(); ++line) {
-    const FeatureLine& l = f.lines[line];
-    if (!l.closed) ends_[line] = {corner_at(l.points.front()), corner_at(l.points.back())};
-  }
-}
 
 bool Assignment::find_near_lines() {
   bool any = false;
@@ -114,7 +97,7 @@ void Assignment::claim_corners() {
   std::vector<std::tuple<double, int, int>> pairs;  // distance, corner, vertex
   for (int v = 0; v < points_.cols(); ++v) {
     for (const CurvePoint& on : near_[v]) {  // a corner within reach is an end of a line within it
-      for (const int c : ends_[on.line]) {
+      for (const int c : curves_.ends(on.line)) {
         if (c < 0) continue;
         const double d = (curves_.corner(c) - points_.col(v)).norm();
         if (d <= kReach * graph_.mean_length(v)) pairs.emplace_back(d, c, v);
@@ -166,7 +149,7 @@ std::vector<Anchor> Assignment::anchors(int line) const {
   constexpr double kOnLine = 0.3;  // of an edge length
   std::vector<Anchor> result;
   for (int end = 0; end < 2; ++end) {
-    const int corner = ends_[line][end];
+    const int corner = curves_.ends(line)[end];
     const int v = corner < 0 ? -1 : vertex_of_corner_[corner];
     if (v >= 0) result.push_back({end == 0 ? 0 : curves_.length(line), v});
   }
@@ -208,34 +191,33 @@ double Assignment::penalty(int line, int v, const PatchEdge& e) const {
 /// is none that keeps to the line.
 std::vector<int> Assignment::path(int line, const Anchor& from, const Anchor& to) {
   constexpr double kLongest = 1.5;  // of the line's stretch
-  std::vector<Reached>& reached = reached_;
   std::priority_queue<std::pair<double, int>, std::vector<std::pair<double, int>>, std::greater<>>
       front;
-  reached[from.vertex].cost = 0;
+  reached_[from.vertex].cost = 0;
   touched_.assign(1, from.vertex);
   front.emplace(0, from.vertex);
-  while (!front.empty() && !reached[to.vertex].done) {
+  while (!front.empty() && !reached_[to.vertex].done) {
     const int v = front.top().second;
     front.pop();
-    if (reached[v].done) continue;
-    reached[v].done = true;
+    if (reached_[v].done) continue;
+    reached_[v].done = true;
     for (const PatchEdge& e : graph_.edges(v)) {
-      Reached& next = reached[e.to];
+      Reached& next = reached_[e.to];
       if (next.done || !is_between(e.to, line, from, to)) continue;
-      const double cost = reached[v].cost + e.length * penalty(line, v, e);
+      const double cost = reached_[v].cost + e.length * penalty(line, v, e);
       if (next.cost >= 0 && next.cost <= cost) continue;
       if (next.cost < 0) touched_.push_back(e.to);
-      next = {cost, reached[v].length + e.length, v, false};
+      next = {cost, reached_[v].length + e.length, v, false};
       front.emplace(cost, e.to);
     }
   }
-  const Reached end = reached[to.vertex];
+  const Reached end = reached_[to.vertex];
   const double most = kLongest * stretch(line, from, to) + graph_.mean_length(from.vertex);
   std::vector<int> vertices;
   if (end.done && from.vertex != to.vertex && end.length <= most) {
-    for (int v = to.vertex; v >= 0; v = reached[v].before) vertices.push_back(v);
+    for (int v = to.vertex; v >= 0; v = reached_[v].before) vertices.push_back(v);
   }
-  for (const int v : touched_) reached[v] = {};
+  for (const int v : touched_) reached_[v] = {};
   return vertices;
 }
 

@@ -9,27 +9,33 @@ namespace {
 
 constexpr int kStretch = 8;  // segments of a box
 
-// What is within reach of a point, for Eigen::BVIntersect.
-template <class Object>
+// Lines that may be within reach of a point, for Eigen::BVIntersect.
 struct Nearby {
   bool intersectVolume(const Eigen::AlignedBox3d& box) const {
     return box.squaredExteriorDistance(p) <= reach * reach;
   }
-  bool intersectObject(const Object& object) {
-    found.push_back(object);
+  bool intersectObject(int line) {
+    lines.push_back(line);
     return false;  // go on
   }
   Eigen::Vector3d p;
   double reach;
-  std::vector<Object> found = {};
+  std::vector<int> lines = {};
 };
+
+// The index of a point among the corners.
+int find_corner(const SurfaceFeatures& features, int point) {
+  const auto at = std::lower_bound(features.corners.begin(), features.corners.end(), point);
+  const bool found = at != features.corners.end() && *at == point;
+  return found ? static_cast<int>(at - features.corners.begin()) : -1;
+}
 
 }  // namespace
 
 FeatureCurves::FeatureCurves(const Eigen::Matrix3Xd& points, SurfaceFeatures features)
     : features_(std::move(features)) {
   for (int v : features_.corners) corners_.emplace_back(points.col(v));
-  std::vector<Stretch> stretches;
+  std::vector<int> lines;  // of each box
   std::vector<Eigen::AlignedBox3d> boxes;
   for (const FeatureLine& line : features_.lines) {
     Curve curve;
@@ -43,43 +49,39 @@ FeatureCurves::FeatureCurves(const Eigen::Matrix3Xd& points, SurfaceFeatures fea
       if (i % kStretch == 0) curve.boxes.emplace_back(from);
       curve.boxes.back().extend(to);
     }
-    for (std::size_t i = 0; i < curve.boxes.size(); ++i) {
-      curve.box.extend(curve.boxes[i]);
-      stretches.push_back({static_cast<int>(curves_.size()), static_cast<int>(i) * kStretch});
-      boxes.push_back(curve.boxes[i]);
+    for (const auto& box : curve.boxes) curve.box.extend(box);
+    boxes.insert(boxes.end(), curve.boxes.begin(), curve.boxes.end());
+    lines.resize(boxes.size(), static_cast<int>(curves_.size()));
+    if (!line.closed) {
+      curve.ends = {find_corner(features_, line.points.front()),
+                    find_corner(features_, line.points.back())};
     }
     curves_.push_back(std::move(curve));
   }
-  stretches_ = Tree(stretches.begin(), stretches.end(), boxes.begin(), boxes.end());
+  stretches_ = {lines.begin(), lines.end(), boxes.begin(), boxes.end()};
 }
 
 /// Improves `best` where this line comes nearer.
 void FeatureCurves::look_at(int line, const Eigen::Vector3d& p, CurvePoint& best) const {
   const Curve& curve = curves_[line];
-  if (curve.box.squaredExteriorDistance(p) > best.distance * best.distance) return;
-  for (std::size_t i = 0; i < curve.boxes.size(); ++i) {
-    if (curve.boxes[i].squaredExteriorDistance(p) > best.distance * best.distance) continue;
-    look_at({line, static_cast<int>(i) * kStretch}, p, best);
-  }
-}
-
-void FeatureCurves::look_at(const Stretch& stretch, const Eigen::Vector3d& p,
-                            CurvePoint& best) const {
-  const Curve& curve = curves_[stretch.line];
   const auto n = static_cast<int>(curve.points.size()) - 1;
-  double squared = best.distance * best.distance;
-  for (int i = stretch.first; i < std::min(n, stretch.first + kStretch); ++i) {
-    const Eigen::Vector3d along = curve.points[i + 1] - curve.points[i];
-    const double length2 = along.squaredNorm();
-    const double part = (p - curve.points[i]).dot(along) / (length2 > 0 ? length2 : 1);
-    const double t = std::clamp(part, 0.0, 1.0);
-    const Eigen::Vector3d q = curve.points[i] + t * along;
-    const double d = (q - p).squaredNorm();
-    if (d > squared || (d == squared && best.line >= 0)) continue;
-    squared = d;
-    const double arc = curve.arc[i] + t * (curve.arc[i + 1] - curve.arc[i]);
-    best = {q, length2 > 0 ? Eigen::Vector3d(along.normalized()) : best.tangent, std::sqrt(d), arc,
-            stretch.line};
+  if (curve.box.squaredExteriorDistance(p) > best.distance * best.distance) return;
+  for (int first = 0; first < n; first += kStretch) {
+    double squared = best.distance * best.distance;
+    if (curve.boxes[first / kStretch].squaredExteriorDistance(p) > squared) continue;
+    for (int i = first; i < std::min(n, first + kStretch); ++i) {
+      const Eigen::Vector3d along = curve.points[i + 1] - curve.points[i];
+      const double length2 = along.squaredNorm();
+      const double part = (p - curve.points[i]).dot(along) / (length2 > 0 ? length2 : 1);
+      const double t = std::clamp(part, 0.0, 1.0);
+      const Eigen::Vector3d q = curve.points[i] + t * along;
+      const double d = (q - p).squaredNorm();
+      if (d > squared || (d == squared && best.line >= 0)) continue;
+      squared = d;
+      const double arc = curve.arc[i] + t * (curve.arc[i + 1] - curve.arc[i]);
+      best = {q, length2 > 0 ? Eigen::Vector3d(along.normalized()) : best.tangent, std::sqrt(d),
+              arc, line};
+    }
   }
 }
 
@@ -96,20 +98,17 @@ CurvePoint FeatureCurves::closest(const Eigen::Vector3d& p, int line) const {
 }
 
 std::vector<CurvePoint> FeatureCurves::within(const Eigen::Vector3d& p, double reach) const {
-  Nearby<Stretch> nearby{p, reach};
+  Nearby nearby{p, reach};
   if (n_lines() > 0) Eigen::BVIntersect(stretches_, nearby);
-  std::sort(nearby.found.begin(), nearby.found.end());
+  std::vector<int>& lines = nearby.lines;
+  std::sort(lines.begin(), lines.end());
+  lines.erase(std::unique(lines.begin(), lines.end()), lines.end());
   std::vector<CurvePoint> found;
-  CurvePoint best;
-  for (std::size_t i = 0; i < nearby.found.size(); ++i) {
-    const Stretch& stretch = nearby.found[i];
-    if (i == 0 || stretch.line != nearby.found[i - 1].line) {
-      best = {};
-      best.distance = reach;
-    }
-    look_at(stretch, p, best);
-    const bool last = i + 1 == nearby.found.size() || nearby.found[i + 1].line != stretch.line;
-    if (last && best.line >= 0) found.push_back(best);
+  for (const int line : lines) {
+    CurvePoint best;
+    best.distance = reach;
+    look_at(line, p, best);
+    if (best.line >= 0) found.push_back(best);
   }
   return found;
 }

@@ -2,7 +2,7 @@
 /// The feature lines of a surface as curves: closest points, arc length, tangents.
 #pragma once
 
-#include <compare>
+#include <array>
 #include <limits>
 #include <unsupported/Eigen/BVH>
 #include <vector>
@@ -35,6 +35,8 @@ class FeatureCurves {
   bool closed(int line) const { return features_.lines[line].closed; }
   double length(int line) const { return curves_[line].arc.back(); }  ///< model units
   const Eigen::Vector3d& corner(int i) const { return corners_[i]; }
+  /// Corners at the first and the last point of an open line; -1 for a closed one.
+  const std::array<int, 2>& ends(int line) const { return curves_[line].ends; }
 
   CurvePoint closest(const Eigen::Vector3d& p) const;
   CurvePoint closest(const Eigen::Vector3d& p, int line) const;
@@ -48,18 +50,13 @@ class FeatureCurves {
     std::vector<double> arc;                 // at each of them
     std::vector<Eigen::AlignedBox3d> boxes;  // of a few segments each
     Eigen::AlignedBox3d box;
+    std::array<int, 2> ends = {-1, -1};
   };
-  struct Stretch {
-    int line, first;  // segment
-    friend constexpr auto operator<=>(const Stretch&, const Stretch&) = default;
-  };
-  using Tree = Eigen::KdBVH<double, 3, Stretch>;
   void look_at(int line, const Eigen::Vector3d& p, CurvePoint& best) const;
-  void look_at(const Stretch& stretch, const Eigen::Vector3d& p, CurvePoint& best) const;
 
   SurfaceFeatures features_;
   std::vector<Curve> curves_;
-  Tree stretches_;
+  Eigen::KdBVH<double, 3, int> stretches_;  // the line of each
   std::vector<Eigen::Vector3d> corners_;
 };
 

@@ -1,7 +1,7 @@
 /// \file
-/// Lists of elements, and walks between neighbours that need no storage of the mesh: within a cell, over a sheet, round a
-/// vertex. A cell's sides are side_at(c, axis, 0) and side_at(c, axis, 1), back and front of its
-/// local x, y and z.
+/// Lists of elements, and walks between neighbours that need no storage of the mesh: within a cell,
+/// over a sheet, round a vertex. A cell's sides are side_at(c, axis, 0) and side_at(c, axis, 1),
+/// back and front of its local x, y and z.
 #pragma once
 
 #include <array>

@@ -23,10 +23,8 @@ struct GroupFeature {
   }
 };
 
-bool ends_at(const SurfaceFeatures& features, int line, int corner) {
-  const FeatureLine& l = features.lines[line];
-  const int point = features.corners[corner];
-  return !l.closed && (l.points.front() == point || l.points.back() == point);
+bool ends_at(const FeatureCurves& curves, int line, int corner) {
+  return curves.ends(line)[0] == corner || curves.ends(line)[1] == corner;
 }
 
 }  // namespace
@@ -40,8 +38,7 @@ std::optional<std::vector<Eigen::Vector3d>> feature_targets(const HexMesh& mesh,
   for (int g = 0; g < plan.n_groups(); ++g) {
     GroupFeature f;
     for (VertexHandle v : plan.group(g)) f.take(labels[v.idx], mesh.point(v));
-    if (f.corner >= 0 && f.line >= 0)
-      f.in_conflict |= !ends_at(curves.features(), f.line, f.corner);
+    if (f.corner >= 0 && f.line >= 0) f.in_conflict |= !ends_at(curves, f.line, f.corner);
     if (f.in_conflict) return std::nullopt;
     if (f.corner >= 0) {
       targets[g] = curves.corner(f.corner);

@@ -46,17 +46,25 @@ TEST(SimplifySlow, WhatWasCollapsedIsNotLostInTheLastCheck) {
   EXPECT_LT(report.after.components, report.before.components);
 }
 
-TEST(SimplifySlow, CarefulTrialsGoFirstAndOthersFollow) {
+// The same part simplified by each of the options.
+template <std::size_t n>
+std::array<SimplifyReport, n> simplify_by_each(const std::array<SimplifyOptions, n>& options) {
   const HexMesh input = make_solid("stepped-shaft", 20);
-  std::array<SimplifyReport, 2> reports;
-  for (int i = 0; i < 2; ++i) {
+  std::array<SimplifyReport, n> reports;
+  for (std::size_t i = 0; i < n; ++i) {
     HexMesh mesh = input;
-    SimplifyOptions options;
-    options.careful = {.wanted = i == 1, .min_scaled_jacobian = 0.9, .mean_scaled_jacobian = 0.99};
-    reports[i] = simplify(mesh, options);
+    reports[i] = simplify(mesh, options[i]);
     expect_good_output(input, mesh, reports[i]);
-    EXPECT_LT(reports[i].after.components, reports[i].before.components);
   }
+  return reports;
+}
+
+TEST(SimplifySlow, CarefulTrialsGoFirstAndOthersFollow) {
+  SimplifyOptions without, with;
+  without.careful.wanted = false;
+  with.careful = {.min_scaled_jacobian = 0.9, .mean_scaled_jacobian = 0.99};
+  const auto reports = simplify_by_each<2>({without, with});
+  for (const SimplifyReport& r : reports) EXPECT_LT(r.after.components, r.before.components);
   const auto by_quality = [](const SimplifyReport& r) {
     return r.sheets.refused[static_cast<int>(Refusal::quality)];
   };
@@ -64,15 +72,9 @@ TEST(SimplifySlow, CarefulTrialsGoFirstAndOthersFollow) {
 }
 
 TEST(SimplifySlow, BoldTrialsTakesLayersUnderTheSurface) {
-  const HexMesh input = make_solid("stepped-shaft", 20);
-  std::array<SimplifyReport, 2> reports;
-  for (int i = 0; i < 2; ++i) {
-    HexMesh mesh = input;
-    SimplifyOptions options;
-    options.bold.wanted = i == 1;
-    reports[i] = simplify(mesh, options);
-    expect_good_output(input, mesh, reports[i]);
-  }
+  SimplifyOptions without, with;
+  without.bold.wanted = false;
+  const auto reports = simplify_by_each<2>({without, with});
   EXPECT_LT(reports[1].after.components, reports[0].after.components);
   EXPECT_GE(reports[1].after.min_scaled_jacobian,
             std::min(BoldTrials().min_scaled_jacobian, reports[0].after.min_scaled_jacobian));
