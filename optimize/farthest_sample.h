@@ -11,11 +11,35 @@
 
 namespace hexweft {
 
-/// Looks for the sample of greatest `distance`, any function of a point that changes by no more than
-/// the point moves: a part of a triangle whose centroid is close enough needs no closer look.
+/// The farthest that a point of a triangle can be from the nearest of its corners.
+inline double covering_radius(const Eigen::Vector3d& p, const Eigen::Vector3d& q,
+                              const Eigen::Vector3d& r) {
+  double a = (q - r).squaredNorm(), b = (r - p).squaredNorm(), c = (p - q).squaredNorm();
+  if (a > c) std::swap(a, c);
+  if (b > c) std::swap(b, c);
+  // Right or obtuse at the corner across from c: on side c, as far from it as from another corner.
+  if (a + b <= c) {
+    const auto along = [&](double s, double t) {
+      return s > 0 ? s * std::sqrt(c) / (s + c - t) : 0;
+    };
+    return std::max(along(a, b), along(b, a));
+  }
+  return std::sqrt(a * b * c / (4 * a * b - (a + b - c) * (a + b - c)));  // of the circumcircle
+}
+
+/// A point that was looked at, and its distance, or some more where that is small.
+struct Sample {
+  Eigen::Vector3d point;
+  double distance;
+};
+
+/// Looks for the sample of greatest distance: a part of a triangle whose corners and centroid are
+/// close enough needs no closer look.
 template <class Distance>
 class FarthestSample {
  public:
+  /// \param distance  (point, enough) → its distance, which changes by no more than the point moves,
+  ///                  or, if that is at most `enough`, any number from it to `enough`
   /// \param at_least  below it distances are not told apart
   /// \param enough    beyond it the search is over
   FarthestSample(Distance distance, double at_least,
@@ -24,23 +48,22 @@ class FarthestSample {
 
   bool done() const { return farthest_ > enough_; }
 
-  double look_at(const Eigen::Vector3d& p) {
-    const double d = distance_(p);
+  Sample look_at(const Eigen::Vector3d& p) {
+    constexpr double kNear =
+        0.25;  // of the farthest: what is nearer lets large parts be passed over
+    const double d = distance_(p, kNear * farthest_);
     farthest_ = std::max(farthest_, d);
-    return d;
+    return {p, d};
   }
 
-  /// The centroid of a triangle, and the corners and centroids of its subdivisions into four.
-  void look_at(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
-               int levels) {
-    const Eigen::Vector3d centroid = (a + b + c) / 3;
-    const double reach =
-        std::sqrt(std::max({(a - centroid).squaredNorm(), (b - centroid).squaredNorm(),
-                            (c - centroid).squaredNorm()}));
-    const double d = look_at(centroid);
-    if (levels == 0 || d + reach <= farthest_ || done()) return;
-    const Eigen::Vector3d ab = (a + b) / 2, bc = (b + c) / 2, ca = (c + a) / 2;
-    for (const Eigen::Vector3d* p : {&a, &b, &c, &ab, &bc, &ca}) look_at(*p);
+  /// The centroid of a triangle of which the corners were looked at, and the corners and centroids of
+  /// its subdivisions into four.
+  void look_at(const Sample& a, const Sample& b, const Sample& c, int levels) {
+    if (done() || is_close(a, b, c)) return;
+    const Sample g = look_at((a.point + b.point + c.point) / 3);
+    if (levels == 0 || (is_close(a, b, g) && is_close(b, c, g) && is_close(c, a, g))) return;
+    const Sample ab = look_at((a.point + b.point) / 2), bc = look_at((b.point + c.point) / 2),
+                 ca = look_at((c.point + a.point) / 2);
     look_at(ab, bc, ca, levels - 1);
     look_at(a, ab, ca, levels - 1);
     look_at(ab, b, bc, levels - 1);
@@ -50,6 +73,12 @@ class FarthestSample {
   double distance() const { return farthest_; }
 
  private:
+  bool is_close(const Sample& a, const Sample& b, const Sample& c) const {
+    return std::max({a.distance, b.distance, c.distance}) +
+               covering_radius(a.point, b.point, c.point) <=
+           farthest_;
+  }
+
   Distance distance_;
   double farthest_, enough_;
 };

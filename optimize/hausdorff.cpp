@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <future>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -64,16 +66,17 @@ double one_sided_distance(const ReferenceSurface& from, const ReferenceSurface& 
                 static_cast<double>(std::max(triangles.size(), to.triangles().size()));
   int near = -1;
   FarthestSample farthest(
-      [&](const Eigen::Vector3d& p) {
-        const SurfacePoint s = to.closest(p, near);
-        near = s.triangle;
-        return s.distance;
-      },
+      [&](const Eigen::Vector3d& p, double enough) { return to.distance(p, near, enough); },
       options.at_least, options.enough);
+  std::vector<std::optional<Sample>> corners(points.cols());
+  const auto corner = [&](int v) {
+    if (!corners[v]) corners[v] = farthest.look_at(points.col(v));
+    return *corners[v];
+  };
   for (const auto& t : triangles) {
     if (farthest.done()) break;
     const double share = area > 0 ? wanted * area_of(t) / area : 0;
-    farthest.look_at(points.col(t[0]), points.col(t[1]), points.col(t[2]),
+    farthest.look_at(corner(t[0]), corner(t[1]), corner(t[2]),
                      levels_for(std::max<double>(options.points_per_triangle, share)));
   }
   return farthest.distance();

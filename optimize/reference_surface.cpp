@@ -84,6 +84,54 @@ TriangleIndex::TriangleIndex(const Eigen::Matrix3Xd& points,
   rtcCommitScene(scene_);
 }
 
+/// What a query reads of a triangle, in one place.
+struct Facet {
+  Eigen::Vector3d a, b, c, normal, centre;
+  double radius;  // of the sphere round `centre` that holds the triangle
+  bool at_feature;
+};
+
+/// The state of one query while Embree offers triangles.
+struct Search {
+  const std::vector<Facet>& facets;
+  Eigen::Vector3d p;
+  const Eigen::Vector3d* hint;
+  double size;     // unit of the index, model units
+  double slack;    // bounds the rounding of the index, model units
+  double squared;  // of the best distance so far
+  double enough;   // squared: what is nearer ends the search
+  int triangle = -1;
+  TrianglePoint best{};
+
+  bool done() const { return triangle >= 0 && squared <= enough; }
+
+  float radius() const {
+    return done() ? 0 : static_cast<float>((std::sqrt(squared) * (1 + 1e-6) + slack) / size);
+  }
+
+  bool offer(int id) {
+    const Facet& t = facets[id];
+    // Too far by its bounding sphere; the slack keeps triangles at equal distance in the race.
+    const double reach = std::sqrt(squared) + t.radius + slack;
+    if ((p - t.centre).squaredNorm() > reach * reach) return false;
+    if (hint && t.normal.dot(*hint) <= 0) return false;
+    const TrianglePoint q = closest_point(p, t.a, t.b, t.c);
+    const double d = (q.point - p).squaredNorm();
+    if (d > squared || (d == squared && triangle >= 0 && id >= triangle)) return false;
+    squared = d;
+    triangle = id;
+    best = q;
+    return true;
+  }
+};
+
+bool offer_triangle(RTCPointQueryFunctionArguments* args) {
+  auto& search = *static_cast<Search*>(args->userPtr);
+  if (!search.offer(static_cast<int>(args->primID))) return false;
+  args->query->radius = search.radius();
+  return true;
+}
+
 }  // namespace
 
 struct ReferenceSurface::Impl {
@@ -105,15 +153,10 @@ struct ReferenceSurface::Impl {
   void make_facets(double feature_angle_deg);
 
   /// \param near  a triangle to begin with, or -1
+  Search search(const Eigen::Vector3d& p, const Eigen::Vector3d* hint, double reach, int near,
+                double enough = 0) const;
   SurfacePoint query(const Eigen::Vector3d& p, const Eigen::Vector3d* hint, double reach,
                      int near) const;
-
-  /// What a query reads of a triangle, in one place.
-  struct Facet {
-    Eigen::Vector3d a, b, c, normal, centre;
-    double radius;  // of the sphere round `centre` that holds the triangle
-    bool at_feature;
-  };
 
   Eigen::Matrix3Xd points;
   std::vector<std::array<int, 3>> triangles;
@@ -150,55 +193,18 @@ void ReferenceSurface::Impl::make_facets(double feature_angle_deg) {
   }
 }
 
-namespace {
-
-/// The state of one query while Embree offers triangles.
-template <class Facet>
-struct Search {
-  const std::vector<Facet>& facets;
-  Eigen::Vector3d p;
-  const Eigen::Vector3d* hint;
-  double size;     // unit of the index, model units
-  double slack;    // bounds the rounding of the index, model units
-  double squared;  // of the best distance so far
-  int triangle = -1;
-  TrianglePoint best{};
-
-  float radius() const {
-    return static_cast<float>((std::sqrt(squared) * (1 + 1e-6) + slack) / size);
-  }
-
-  bool offer(int id) {
-    const Facet& t = facets[id];
-    // Too far by its bounding sphere; the slack keeps triangles at equal distance in the race.
-    const double reach = std::sqrt(squared) + t.radius + slack;
-    if ((p - t.centre).squaredNorm() > reach * reach) return false;
-    if (hint && t.normal.dot(*hint) <= 0) return false;
-    const TrianglePoint q = closest_point(p, t.a, t.b, t.c);
-    const double d = (q.point - p).squaredNorm();
-    if (d > squared || (d == squared && triangle >= 0 && id >= triangle)) return false;
-    squared = d;
-    triangle = id;
-    best = q;
-    return true;
-  }
-};
-
-template <class Facet>
-bool offer_triangle(RTCPointQueryFunctionArguments* args) {
-  auto& search = *static_cast<Search<Facet>*>(args->userPtr);
-  if (!search.offer(static_cast<int>(args->primID))) return false;
-  args->query->radius = search.radius();
-  return true;
-}
-
-}  // namespace
-
-SurfacePoint ReferenceSurface::Impl::query(const Eigen::Vector3d& p, const Eigen::Vector3d* hint,
-                                           double reach, int near) const {
+Search ReferenceSurface::Impl::search(const Eigen::Vector3d& p, const Eigen::Vector3d* hint,
+                                      double reach, int near, double enough) const {
   const Eigen::Vector3d local = p - centre;
-  Search<Facet> search{facets, p, hint, diagonal, 1e-6 * (diagonal + local.norm()), reach * reach};
+  Search search{.facets = facets,
+                .p = p,
+                .hint = hint,
+                .size = diagonal,
+                .slack = 1e-6 * (diagonal + local.norm()),
+                .squared = reach * reach,
+                .enough = enough > 0 ? enough * enough : -1};
   if (near >= 0) search.offer(near);
+  if (search.done()) return search;
   RTCPointQuery query;
   query.x = static_cast<float>(local[0] / diagonal);
   query.y = static_cast<float>(local[1] / diagonal);
@@ -207,7 +213,13 @@ SurfacePoint ReferenceSurface::Impl::query(const Eigen::Vector3d& p, const Eigen
   query.radius = search.radius();
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
-  rtcPointQuery(index.scene(), &query, &context, offer_triangle<Facet>, &search);
+  rtcPointQuery(index.scene(), &query, &context, offer_triangle, &search);
+  return search;
+}
+
+SurfacePoint ReferenceSurface::Impl::query(const Eigen::Vector3d& p, const Eigen::Vector3d* hint,
+                                           double reach, int near) const {
+  const Search search = this->search(p, hint, reach, near);
   SurfacePoint found;
   if (search.triangle < 0) return found;
   found.point = search.best.point;
@@ -235,6 +247,13 @@ SurfacePoint ReferenceSurface::closest(const Eigen::Vector3d& p, const Eigen::Ve
 
 SurfacePoint ReferenceSurface::closest_within(const Eigen::Vector3d& p, double reach) const {
   return impl_->query(p, nullptr, reach, -1);
+}
+
+double ReferenceSurface::distance(const Eigen::Vector3d& p, int& near, double enough) const {
+  const Search found =
+      impl_->search(p, nullptr, std::numeric_limits<double>::infinity(), near, enough);
+  near = found.triangle;
+  return std::sqrt(found.squared);
 }
 
 const Eigen::Matrix3Xd& ReferenceSurface::points() const { return impl_->points; }

@@ -51,6 +51,11 @@ class ReferenceSurface {
   /// Within `reach` (model units) only; triangle = -1 if nothing is.
   SurfacePoint closest_within(const Eigen::Vector3d& p, double reach) const;
 
+  /// The distance of the closest point, or as soon as one is known that is no farther than `enough`
+  /// (model units), its distance.
+  /// \param near  on entry a triangle thought to be close, or -1; on return that of the point
+  double distance(const Eigen::Vector3d& p, int& near, double enough = 0) const;
+
   const Eigen::Matrix3Xd& points() const;
   const std::vector<std::array<int, 3>>& triangles() const;
   const FeatureCurves& curves() const;  ///< its feature lines and corners

@@ -35,6 +35,20 @@ double mean_area(const ReferenceSurface& reference) {
   return sum / static_cast<double>(reference.triangles().size());
 }
 
+/// The centroids of a triangle and of its subdivisions, with the midpoints that these make.
+template <class F>
+void for_each_sample(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
+                     int levels, F&& visit) {
+  visit((a + b + c) / 3);
+  if (levels == 0) return;
+  const Eigen::Vector3d ab = (a + b) / 2, bc = (b + c) / 2, ca = (c + a) / 2;
+  for (const Eigen::Vector3d* p : {&ab, &bc, &ca}) visit(*p);
+  for_each_sample(a, ab, ca, levels - 1, visit);
+  for_each_sample(ab, b, bc, levels - 1, visit);
+  for_each_sample(ca, bc, c, levels - 1, visit);
+  for_each_sample(ab, bc, ca, levels - 1, visit);
+}
+
 /// A grid over the reference's box with cells about the size of its triangles.
 QuadGrid make_grid(const ReferenceSurface& reference) {
   const auto& p = reference.points();
@@ -47,26 +61,39 @@ QuadGrid make_grid(const ReferenceSurface& reference) {
 
 }  // namespace
 
-/// Distances of vertices and edge midpoints that several sides share, within one update.
+/// What one update knows: distances of vertices and edge midpoints that several sides share.
 class SurfaceDistance::VertexAndEdgeCache {
  public:
-  template <class F>
-  double vertex(VertexHandle v, F&& compute) {
-    return get(2 * static_cast<std::int64_t>(v.idx), compute);
+  explicit VertexAndEdgeCache(const ReferenceSurface& reference) : reference_(reference) {}
+
+  /// The distance of a point, or as soon as that is known to be at most `enough`, any such number.
+  double distance(const Eigen::Vector3d& p, double enough) {
+    return reference_.distance(p, near_, enough);
   }
-  template <class F>
-  double edge(EdgeHandle e, F&& compute) {
-    return get(2 * static_cast<std::int64_t>(e.idx) + 1, compute);
+  double vertex(VertexHandle v, const Eigen::Vector3d& p, double enough) {
+    return shared(2 * static_cast<std::int64_t>(v.idx), p, enough);
+  }
+  double edge(EdgeHandle e, const Eigen::Vector3d& middle, double enough) {
+    return shared(2 * static_cast<std::int64_t>(e.idx) + 1, middle, enough);
   }
 
  private:
-  template <class F>
-  double get(std::int64_t key, F&& compute) {
-    const auto [it, fresh] = known_.try_emplace(key, 0.0);
-    if (fresh) it->second = compute();
-    return it->second;
+  struct Known {
+    double at_most = std::numeric_limits<double>::infinity();
+    bool exact = false;
+  };
+  double shared(std::int64_t key, const Eigen::Vector3d& p, double enough) {
+    Known& known = known_[key];
+    if (!known.exact && known.at_most > enough) {
+      const double d = distance(p, enough);
+      known = {d, d > enough};
+    }
+    return known.at_most;
   }
-  std::unordered_map<std::int64_t, double> known_;
+
+  const ReferenceSurface& reference_;
+  int near_ = -1;
+  std::unordered_map<std::int64_t, Known> known_;
 };
 
 SurfaceDistance::SurfaceDistance(const HexMesh& mesh, const ReferenceSurface& reference,
@@ -156,44 +183,30 @@ double SurfaceDistance::distance_at(HalfFaceHandle hf) const {
   return d;
 }
 
-double SurfaceDistance::distance_of_part(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                                         const Eigen::Vector3d& c, int levels) const {
-  double d = reference_.closest((a + b + c) / 3).distance;
-  if (levels == 0) return d;
-  const Eigen::Vector3d ab = (a + b) / 2, bc = (b + c) / 2, ca = (c + a) / 2;
-  for (const Eigen::Vector3d* p : {&ab, &bc, &ca}) d = std::max(d, reference_.closest(*p).distance);
-  return std::max({d, distance_of_part(a, ab, ca, levels - 1),
-                   distance_of_part(ab, b, bc, levels - 1), distance_of_part(ca, bc, c, levels - 1),
-                   distance_of_part(ab, bc, ca, levels - 1)});
-}
-
 double SurfaceDistance::forward_distance(const HexMesh& mesh, int side, double limit,
                                          VertexAndEdgeCache& cache) const {
   const HalfFaceHandle hf(side);
   const QuadPoints& q = grid_.points(side);
-  int near = -1;
-  const auto at = [&](const Eigen::Vector3d& p) {
-    const SurfacePoint s = reference_.closest(p, near);
-    near = s.triangle;
-    return s.distance;
-  };
   const auto vertices = mesh.vertices(hf);
   const auto edges = mesh.edges(hf);
-  double d = at((q[0] + q[2]) / 2);
+  double d = 0;
+  const auto look_at = [&](const Eigen::Vector3d& p) { d = std::max(d, cache.distance(p, d)); };
+  look_at((q[0] + q[2]) / 2);
   for (int i = 0; i < 4; ++i) {
-    d = std::max(d, cache.vertex(vertices[i], [&] { return at(q[i]); }));
-    d = std::max(d, cache.edge(edges[i], [&] { return at((q[i] + q[(i + 1) % 4]) / 2); }));
+    d = std::max(d, cache.vertex(vertices[i], q[i], d));
+    d = std::max(d, cache.edge(edges[i], (q[i] + q[(i + 1) % 4]) / 2, d));
   }
-  const auto parts = [&](int levels) {
+  const auto look_at_parts = [&](int levels) {
     const int first = levels + levels_for(q[0], q[1], q[2]),
               second = levels + levels_for(q[2], q[3], q[0]);
-    return std::max(distance_of_part(q[0], q[1], q[2], first),
-                    distance_of_part(q[2], q[3], q[0], second));
+    for_each_sample(q[0], q[1], q[2], first, look_at);
+    for_each_sample(q[2], q[3], q[0], second, look_at);
   };
-  d = std::max(d, parts(options_.mesh_levels));
+  look_at_parts(options_.mesh_levels);
   const bool suspect = d > options_.suspect_rel * limit && d <= limit;
-  if (!suspect || options_.suspect_levels == 0) return d;
-  return std::max(d, parts(options_.mesh_levels + options_.suspect_levels));
+  if (suspect && options_.suspect_levels > 0)
+    look_at_parts(options_.mesh_levels + options_.suspect_levels);
+  return d;
 }
 
 /// Brings the grid up to date. \return whether the side changed
@@ -240,7 +253,7 @@ double SurfaceDistance::after_change(const HexMesh& mesh, std::span<const CellHa
 
 double SurfaceDistance::update(const HexMesh& mesh, const std::vector<int>& changed, double limit) {
   too_far_at_.reset();
-  VertexAndEdgeCache cache;
+  VertexAndEdgeCache cache(reference_);
   for (int side : changed) {
     if (!grid_.contains(side)) continue;
     forward_[side] = forward_distance(mesh, side, limit, cache);

@@ -101,8 +101,6 @@ class SurfaceDistance {
                  const Eigen::Vector3d& c) const;
   double forward_distance(const HexMesh& mesh, int side, double limit,
                           VertexAndEdgeCache& cache) const;
-  double distance_of_part(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                          const Eigen::Vector3d& c, int levels) const;
   double update(const HexMesh& mesh, const std::vector<int>& changed, double limit);
   double update_samples(const std::vector<int>& changed, double limit);
 

@@ -1,6 +1,8 @@
 // The change of a SurfaceDistance between its samples.
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <vector>
 
 #include "optimize/farthest_sample.h"
 #include "optimize/surface_distance.h"
@@ -16,17 +18,15 @@ bool SurfaceDistance::change_is_within(double limit, double skip_rel) {
   too_far_at_.reset();
   int near = -1;
   FarthestSample farthest(
-      [&](const Eigen::Vector3d& p) {
-        const SurfacePoint s = reference_.closest(p, near);
-        near = s.triangle;
-        return s.distance;
-      },
+      [&](const Eigen::Vector3d& p, double enough) { return reference_.distance(p, near, enough); },
       limit, limit);
   for (const SideUndo& u : side_undo_) {
     if (!grid_.contains(u.side) || forward_[u.side] < skip_rel * limit) continue;
     const QuadPoints& q = grid_.points(u.side);
-    farthest.look_at(q[0], q[1], q[2], kLevels + levels_for(q[0], q[1], q[2]));
-    farthest.look_at(q[2], q[3], q[0], kLevels + levels_for(q[2], q[3], q[0]));
+    const Sample corners[] = {farthest.look_at(q[0]), farthest.look_at(q[1]),
+                              farthest.look_at(q[2]), farthest.look_at(q[3])};
+    farthest.look_at(corners[0], corners[1], corners[2], kLevels + levels_for(q[0], q[1], q[2]));
+    farthest.look_at(corners[2], corners[3], corners[0], kLevels + levels_for(q[2], q[3], q[0]));
     if (farthest.done()) {
       too_far_at_ = grid_.centre(u.side);
       return false;
@@ -40,7 +40,7 @@ bool SurfaceDistance::changed_triangles_are_within(double limit, double skip) {
   for (const SampleUndo& u : sample_undo_) changed[u.sample] = backward_[u.sample] >= skip;
   int guess = -1;
   FarthestSample farthest(
-      [&](const Eigen::Vector3d& p) {
+      [&](const Eigen::Vector3d& p, double) {
         const QuadGrid::Nearest nearest = grid_.nearest(p, guess);
         guess = nearest.id;
         return std::sqrt(nearest.squared_distance);
@@ -59,16 +59,20 @@ bool SurfaceDistance::changed_triangles_are_within(double limit, double skip) {
     for (int v : corners) near_change[v] = 1;
   }
   const auto& points = reference_.points();
+  std::vector<std::optional<Sample>> seen(points.cols());
+  const auto corner = [&](int v) {
+    if (!seen[v]) seen[v] = farthest.look_at(points.col(v));
+    return *seen[v];
+  };
   for (std::size_t t = 0; t < triangles.size() && !farthest.done(); ++t) {
     const auto& corners = triangles[t];
     if (std::none_of(corners.begin(), corners.end(), [&](int v) { return near_change[v] != 0; }))
       continue;
     const TriangleSamples& own = samples_of_triangle_[t];
     guess = nearest_side_.side(own.first_centroid);
-    const Eigen::Vector3d a = points.col(corners[0]), b = points.col(corners[1]),
-                          c = points.col(corners[2]);
-    farthest.look_at(a, b, c, kLevels + levels_for(a, b, c));
-    if (farthest.done()) too_far_at_ = (a + b + c) / 3;
+    const Sample a = corner(corners[0]), b = corner(corners[1]), c = corner(corners[2]);
+    farthest.look_at(a, b, c, kLevels + levels_for(a.point, b.point, c.point));
+    if (farthest.done()) too_far_at_ = (a.point + b.point + c.point) / 3;
   }
   return !farthest.done();
 }
