@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <glog/logging.h>
 #include <iostream>
 #include <new>
 
@@ -73,6 +74,7 @@ CLI::Validator in_range(double least, double most) {
 
 Program::Program(const std::string& name, const std::string& summary)
     : app_(summary, name), name_(name) {
+  FLAGS_minloglevel = google::GLOG_ERROR;  // nobody can act on the warnings of ceres
   app_.set_version_flag("--version", name + " " HEXWEFT_VERSION);
   app_.get_formatter()->column_width(34);
   app_.footer(

@@ -88,6 +88,15 @@ TEST_F(SimplifyTool, AngleFilterAndBoldTrialsAreOptions) {
   EXPECT_EQ(run("hexweft-simplify in.vtk -o out.vtk --max-boundary-angle 0").exit_code, 2);
 }
 
+// Line searches on this one make ceres log warnings.
+TEST_F(SimplifyTool, IsQuietWhereNothingIsWrong) {
+  const ToolRun r =
+      run("hexweft-generate grid --sheets 6 --seed 21 -o in.vtk && "
+          "hexweft-simplify in.vtk -o out.vtk");
+  EXPECT_EQ(r.exit_code, 0);
+  EXPECT_EQ(r.err, "");
+}
+
 TEST_F(SimplifyTool, InterruptedItWritesAValidMesh) {
   ASSERT_EQ(run("hexweft-generate octree-like --shape blob --resolution 20 -o in.vtk").exit_code,
             0);
