@@ -16,7 +16,9 @@ namespace hexweft {
 /// Source [Xu2021, Algorithm 1], spec "The loop". Whenever it stops, the mesh is valid: conforming,
 /// manifold, of the input's genus and parts, without inverted cells, within the Hausdorff limit.
 /// A mesh of which nothing can be removed comes back as it was, but for gaps of deleted elements.
-/// \param mesh  valid (check_topology), no cell of scaled Jacobian <= 0, its base complex regular
+/// Inverted cells of the input are untangled first.
+/// \param mesh  valid (check_topology), its base complex regular, its inverted cells such that they
+///              can be untangled within the Hausdorff limit
 /// \throws InputError otherwise, naming an element, and on bad options; the mesh is then unchanged
 SimplifyReport simplify(HexMesh& mesh, const SimplifyOptions& options = {});
 

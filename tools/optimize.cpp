@@ -3,7 +3,7 @@
 
 #include "optimize/hausdorff.h"
 #include "optimize/smooth.h"
-#include "ovm/neighborhood.h"
+#include "optimize/untangle.h"
 #include "ovm/quality.h"
 #include "tools/cli.h"
 #include "tools/energy_argument.h"
@@ -22,21 +22,6 @@ struct Request {
   std::string surface, features = "auto";
   bool untangle = false;
 };
-
-// What --untangle does: the whole mesh at once, and again from where that ended, until nothing is
-// inverted or it gets no better.
-void untangle(HexMesh& mesh, const ReferenceSurface& surface, const SmoothingOptions& options) {
-  const std::vector<CellHandle> cells = all_cells(mesh);
-  ParametrizationOptions o = options.parametrization;
-  o.max_iterations = 1;
-  int inverted = summarize_quality(mesh, 0).n_inverted;
-  for (int round = 0; round < options.global_rounds && inverted > 0; ++round) {
-    parametrize(mesh, cells, surface, o);
-    const int now = summarize_quality(mesh, 0).n_inverted;
-    if (now >= inverted) break;
-    inverted = now;
-  }
-}
 
 Json to_json(const QualitySummary& q, double hausdorff_ratio) {
   return {{"min_scaled_jacobian", q.min_scaled_jacobian},
@@ -96,7 +81,7 @@ int run(cli::Program& program, Request& request) {
     const cli::BusyLine busy(request.untangle ? "untangling" : "optimizing");
     if (request.untangle) {
       hausdorff_before = hausdorff_distance(mesh, surface).ratio();
-      untangle(mesh, surface, request.options);
+      untangle(mesh, surface, request.options.parametrization, request.options.global_rounds);
       hausdorff_after = hausdorff_distance(mesh, surface).ratio();
     } else {
       const SmoothingReport r = smooth(mesh, surface, request.options);
@@ -109,12 +94,13 @@ int run(cli::Program& program, Request& request) {
   const QualitySummary after = summarize_quality(mesh, 0);
   report["before"] = to_json(before, hausdorff_before);
   report["after"] = to_json(after, hausdorff_after);
-  program.write_mesh(mesh);
+  if (after.n_inverted == 0) program.write_mesh(mesh);
   program.write_json(report);
   program.say_text(cli::compare(report["before"], report["after"]));
   if (after.n_inverted == 0) return cli::kDone;
-  return program.fail(cli::kFailed,
-                      fmt::format("{} hexahedra are still inverted", after.n_inverted));
+  return program.fail(
+      cli::kFailed,
+      fmt::format("{} hexahedra are still inverted: no mesh is written", after.n_inverted));
 }
 
 }  // namespace

@@ -10,8 +10,6 @@
 namespace hexweft::detail {
 namespace {
 
-// Normals are averaged across edges less sharp than this; it has no say in what is a feature line.
-constexpr double kNormalAngle = 40;
 // The loop samples the surface less densely than the last check: it keeps this share of the limit.
 constexpr double kLoopShare = 0.95;
 // Below this share of the wanted count of cells sheets that are as long across as the mean edge are
@@ -42,12 +40,12 @@ SimplifyOptions bold_options(SimplifyOptions options) {
 
 }  // namespace
 
-Run::Run(HexMesh& mesh, const SimplifyOptions& options)
+Run::Run(HexMesh& mesh, const ReferenceSurface& reference, const SimplifyOptions& options)
     : mesh_(mesh),
       options_(options),
       start_(Clock::now()),
       clock_(Stage::preparation),
-      reference_(make_reference_surface(mesh, kNormalAngle, options.features)),
+      reference_(reference),
       distance_(mesh, reference_),
       context_{mesh,
                reference_,

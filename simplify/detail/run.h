@@ -17,8 +17,9 @@ class Round;  // round.h
 
 class Run {
  public:
+  /// \param reference  the surface of the input
   /// \throws InputError if the base complex is not regular
-  Run(HexMesh& mesh, const SimplifyOptions& options);
+  Run(HexMesh& mesh, const ReferenceSurface& reference, const SimplifyOptions& options);
   /// Puts the checkpoint's mesh in the place of the input's.
   /// \throws InputError if it cannot have come from it; the mesh is then as it was
   void go_on_from(const Checkpoint& from);

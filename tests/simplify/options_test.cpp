@@ -73,14 +73,19 @@ void expect_refused(HexMesh& mesh, const std::string& message) {
   EXPECT_TRUE(MeshDump(mesh) == before);
 }
 
-TEST(Input, InvertedCellIsNamed) {
-  HexMesh mesh = make_grid({4, 4, 4});
-  // The vertex (1, 1, 1) is drawn through the cells on its far side.
-  mesh.set_point(VertexHandle(1 + 5 + 25), {2.5, 2.5, 2.5});
-  expect_refused(mesh, "cell ");
+TEST(Input, InvertedCellThatCannotBeUntangledIsNamed) {
   HexMesh cube = make_grid({1, 1, 1});
   cube.set_point(VertexHandle(7), {-1, -1, -1});
   expect_refused(cube, "cell 0 ");
+  HexMesh inside_out = make_grid({3, 3, 3});
+  for (const VertexHandle v : inside_out.vertices()) inside_out.set_point(v, -inside_out.point(v));
+  expect_refused(inside_out, "cell 0 ");
+}
+
+TEST(Input, TangledSurfaceThatIsTooFarOnceUntangledIsRefused) {
+  HexMesh mesh = make_grid({4, 4, 4});
+  mesh.set_point(VertexHandle(12 + 100), {2, 2, -6});  // the middle of the top, through the bottom
+  expect_refused(mesh, "off its surface");
 }
 
 // A mesh dump with NaN in it does not equal itself; the counts have to do.

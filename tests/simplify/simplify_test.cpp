@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/mesh_families.h"
+#include "tests/random.h"
 #include "tests/simplify/loop_checks.h"
 
 namespace hexweft {
@@ -52,6 +53,30 @@ TEST(Simplify, PillowIsRemoved) {
   EXPECT_EQ(report.before.components, 33);
   EXPECT_EQ(report.after.components, 1);
   EXPECT_GE(report.sheets.accepted + report.chords.accepted, 1);
+}
+
+// Vertices thrown about, some of them along the surface.
+TEST(Simplify, InvertedCellsOfTheInputAreUntangledFirst) {
+  for (unsigned seed = 1; seed <= 3; ++seed) {
+    SCOPED_TRACE(seed);
+    HexMesh input = make_grid_with_random_sheets(1, seed);
+    Random random(seed);
+    for (const VertexHandle v : input.vertices()) {
+      const Eigen::Vector3d p = input.point(v);
+      if (random.below(15) > 0 || p.minCoeff() == 0 || p.head<2>().maxCoeff() == 5) continue;
+      const double height = p[2];
+      Eigen::Vector3d q = p + random.in_cube(1.5);
+      if (height == 5) q[2] = height;
+      input.set_point(v, q);
+    }
+    ASSERT_LT(min_scaled_jacobian(input), 0);
+    HexMesh mesh = input;
+    const SimplifyReport report = simplify(mesh);
+    expect_good_output(input, mesh, report);
+    EXPECT_GT(report.before.inverted, 0);
+    EXPECT_LT(report.before.min_scaled_jacobian, 0);
+    EXPECT_EQ(report.after.components, 1);
+  }
 }
 
 TEST(Simplify, GridStaysOneComponent) {

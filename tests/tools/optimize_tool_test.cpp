@@ -59,6 +59,7 @@ TEST_F(OptimizeTool, ReportsWhatStaysInverted) {
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.err, IsSentenceOf("hexweft-optimize"));
   EXPECT_THAT(result.err, testing::HasSubstr("still inverted"));
+  EXPECT_EQ(n_files(), 1);  // a wrong mesh is worse than none
 }
 
 TEST_F(OptimizeTool, StaysOnAnotherSurface) {
