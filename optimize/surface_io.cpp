@@ -11,6 +11,7 @@
 // clang-format keeps this below the readers.
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
 
+#include "optimize/triangle_mesh.h"
 #include "ovm/errors.h"
 
 namespace hexweft {
@@ -31,21 +32,6 @@ std::string extension_of(const std::filesystem::path& path) {
   }
   return extension;
 }
-
-// OpenMesh reports what it does not like on the console.
-class SilentOpenMesh {
- public:
-  SilentOpenMesh() {
-    omerr().disable();
-    omlog().disable();
-  }
-  SilentOpenMesh(const SilentOpenMesh&) = delete;
-  SilentOpenMesh& operator=(const SilentOpenMesh&) = delete;
-  ~SilentOpenMesh() {
-    omerr().enable();
-    omlog().enable();
-  }
-};
 
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& problem) {
   throw FormatError(path.string() + ": " + problem);

@@ -1,11 +1,32 @@
 #include "optimize/triangle_mesh.h"
 
 #include <cmath>
+#include <mutex>
 #include <numbers>
 
 #include <Eigen/Geometry>
 
 namespace hexweft {
+namespace {
+
+std::mutex silence_mutex;
+int n_silent = 0;
+
+}  // namespace
+
+SilentOpenMesh::SilentOpenMesh() {
+  const std::lock_guard lock(silence_mutex);
+  if (n_silent++ > 0) return;
+  omerr().disable();
+  omlog().disable();
+}
+
+SilentOpenMesh::~SilentOpenMesh() {
+  const std::lock_guard lock(silence_mutex);
+  if (--n_silent > 0) return;
+  omerr().enable();
+  omlog().enable();
+}
 
 TriangleMesh make_triangle_mesh(const Eigen::Matrix3Xd& points,
                                 const std::vector<std::array<int, 3>>& triangles,
@@ -15,7 +36,7 @@ TriangleMesh make_triangle_mesh(const Eigen::Matrix3Xd& points,
   std::vector<TriangleMesh::VertexHandle> vertex(points.cols());
   for (Eigen::Index v = 0; v < points.cols(); ++v)
     vertex[v] = mesh.add_vertex(to_openmesh(points.col(v)));
-  omerr().disable();  // it reports refused triangles on the console
+  const SilentOpenMesh silence;  // about refused triangles
   for (const auto& t : triangles) {
     const bool loop = t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
     first_vertex.push_back(vertex[t[0]]);
@@ -25,7 +46,6 @@ TriangleMesh make_triangle_mesh(const Eigen::Matrix3Xd& points,
     mesh.add_face(a, b, mesh.add_vertex(to_openmesh(points.col(t[2]))));
     first_vertex.back() = a;
   }
-  omerr().enable();
   for (const auto f : mesh.faces()) {
     const auto& t = triangles[f.idx()];
     const Eigen::Vector3d ab = points.col(t[1]) - points.col(t[0]),

@@ -19,6 +19,15 @@ using TriangleMesh = OpenMesh::TriMesh_ArrayKernelT<TriangleMeshTraits>;
 inline OpenMesh::Vec3d to_openmesh(const Eigen::Vector3d& p) { return {p[0], p[1], p[2]}; }
 inline Eigen::Vector3d to_eigen(const OpenMesh::Vec3d& p) { return {p[0], p[1], p[2]}; }
 
+/// While there is one, on whatever thread, OpenMesh does not report on the console what it does not like.
+class SilentOpenMesh {
+ public:
+  SilentOpenMesh();
+  SilentOpenMesh(const SilentOpenMesh&) = delete;
+  SilentOpenMesh& operator=(const SilentOpenMesh&) = delete;
+  ~SilentOpenMesh();
+};
+
 /// The triangles as an OpenMesh. A triangle that would make it non-manifold gets vertices of its
 /// own. \param first_vertex  set to the vertex of every face that is its triangle's first corner
 TriangleMesh make_triangle_mesh(const Eigen::Matrix3Xd& points,

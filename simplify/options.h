@@ -48,8 +48,11 @@ struct SimplifyOptions {
   double target_hexahedra_rel = 1.0;  ///< > 0, of the input's count; below it sheets are refined
   /// > 0, rings of cells that move round the collapse of a layer; round that of several, twice as many
   int rings = 3;
+  /// > 0, runs from the input, of which the outcome of the fewest components is taken (attempts.h)
+  int attempts = 1;
   int threads =
-      1;  ///< > 0; two are used, for the two directions of distance checks at full sampling
+      1;  ///< > 0, attempts at a time; of one attempt two are used, for the two directions
+          ///< of distance checks at full sampling
   bool smooth = true;         ///< global smoothing at the end
   int smoothing_trials = 50;  ///< >= 0, passes over the neighbourhoods of the worst cells then
   double give_up_factor = 2;  ///< >= 1; half relaxed and so many limits away, a trial ends

@@ -13,7 +13,7 @@ std::string_view name(StepKind kind) {
 }
 
 nlohmann::ordered_json to_json(const SimplifyProgress& p) {
-  nlohmann::ordered_json j = {{"step", p.step}, {"what", name(p.what)}};
+  nlohmann::ordered_json j = {{"attempt", p.attempt}, {"step", p.step}, {"what", name(p.what)}};
   if (is_collapse(p.what)) {
     j["kind"] = p.kind;
     j["width"] = p.width;

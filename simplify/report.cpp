@@ -124,17 +124,27 @@ std::string SimplifyReport::profile_table() const {
 }
 
 nlohmann::ordered_json SimplifyReport::json() const {
-  return {{"before", to_json(before)},
-          {"after", to_json(after)},
-          {"rate", rate()},
-          {"hausdorff_ratio", hausdorff_ratio},
-          {"stopped", name(stopped)},
-          {"sheets", to_json(sheets)},
-          {"chords", to_json(chords)},
-          {"refined", refined},
-          {"refinement_failed", refinement_failed},
-          {"seconds", seconds},
-          {"profile", profile.json()}};
+  nlohmann::ordered_json j = {{"before", to_json(before)},
+                              {"after", to_json(after)},
+                              {"rate", rate()},
+                              {"hausdorff_ratio", hausdorff_ratio},
+                              {"stopped", name(stopped)},
+                              {"sheets", to_json(sheets)},
+                              {"chords", to_json(chords)},
+                              {"refined", refined},
+                              {"refinement_failed", refinement_failed},
+                              {"seconds", seconds},
+                              {"profile", profile.json()}};
+  if (attempts.empty()) return j;
+  j["attempt"] = attempt;
+  for (const AttemptFigures& a : attempts) {
+    j["attempts"].push_back({{"attempt", a.attempt},
+                             {"components", a.components},
+                             {"min_scaled_jacobian", a.min_scaled_jacobian},
+                             {"mean_scaled_jacobian", a.mean_scaled_jacobian},
+                             {"seconds", a.seconds}});
+  }
+  return j;
 }
 
 }  // namespace hexweft

@@ -40,6 +40,14 @@ nlohmann::ordered_json to_json(const TrialCounts& counts);
 /// What to_json() was made from. \throws nlohmann::json::exception if it is not of that form
 TrialCounts trial_counts(const nlohmann::ordered_json& j);
 
+/// How one of several attempts has ended.
+struct AttemptFigures {
+  int attempt = 0;  ///< from 0
+  int components = 0;
+  double min_scaled_jacobian = 1, mean_scaled_jacobian = 1;
+  double seconds = 0;
+};
+
 struct SimplifyReport {
   MeshFigures before, after;
   double hausdorff_ratio = 0;  ///< of the output, at full sampling
@@ -48,7 +56,9 @@ struct SimplifyReport {
   int refined = 0;            ///< sheets split
   int refinement_failed = 0;  ///< sheets whose split failed, or was undone since it led nowhere
   double seconds = 0;         ///< earlier runs of a resumed one included
-  Profile profile;            ///< where they went
+  Profile profile;            ///< where they went, in the attempt that was taken
+  int attempt = 0;            ///< that was taken
+  std::vector<AttemptFigures> attempts;  ///< that were made, in order; none where one was asked for
 
   double rate() const {  ///< R
     return before.components > 0 ? 1 - static_cast<double>(after.components) / before.components

@@ -10,6 +10,7 @@
 #include "ovm/errors.h"
 #include "ovm/quality.h"
 #include "ovm/topology_check.h"
+#include "simplify/attempts.h"
 #include "simplify/detail/run.h"
 
 namespace hexweft {
@@ -71,20 +72,27 @@ SimplifyReport run_on(HexMesh& mesh, const Checkpoint* from, const SimplifyOptio
   check_connectivity(mesh, "the mesh");
   check_points(mesh, "the mesh");
   if (from) {
+    if (options.attempts > 1)
+      throw InputError(
+          fmt::format("attempts = {} of a run that is resumed, expected 1", options.attempts));
     check_connectivity(from->mesh, "the checkpoint's mesh");
     check_points(from->mesh, "the checkpoint's mesh");
     expect_no_inverted(from->mesh, "the checkpoint's mesh");
   }
   const ReferenceSurface reference = make_reference_surface(mesh, kNormalAngle, options.features);
-  HexMesh result = mesh;
+  Outcome outcome = {mesh, {}};
   const bool tangled = first_inverted(mesh).valid();
-  if (tangled) untangle_input(result, reference, options);
-  detail::Run run(result, reference, options);
-  if (from) run.go_on_from(*from);
-  SimplifyReport report = run.run();
-  if (tangled) report.before = measure_mesh(mesh);
-  mesh = std::move(result);
-  return report;
+  if (tangled) untangle_input(outcome.mesh, reference, options);
+  if (options.attempts > 1) {
+    outcome = best_of_attempts(outcome.mesh, reference, options);
+  } else {
+    detail::Run run(outcome.mesh, reference, options);
+    if (from) run.go_on_from(*from);
+    outcome.report = run.run();
+  }
+  if (tangled) outcome.report.before = measure_mesh(mesh);
+  mesh = std::move(outcome.mesh);
+  return outcome.report;
 }
 
 }  // namespace

@@ -51,6 +51,12 @@ void add_options(CLI::App& app, Request& r) {
   app.add_option("--components", r.target_components, "Stop at this many components");
   app.add_option("--seconds", r.max_seconds,
                  "Begin nothing more after this long, the smoothing at the end neither");
+  app.add_option(
+         "--attempts", o.attempts,
+         "Runs with slightly different weights, of which the simplest mesh is taken; as many "
+         "at a time as there are threads")
+      ->check(cli::in_range(1, 1000))
+      ->capture_default_str();
   app.add_flag("--no-chords", r.no_chords, "Collapse sheets only");
   app.add_flag("!--no-careful-trials", o.careful.wanted,
                "Do without the careful trials, which go first and ask for better hexahedra");
@@ -85,6 +91,12 @@ void add_run_options(CLI::App& app, Request& r) {
 std::string text_of(const SimplifyProgress& p) {
   return fmt::format("{} steps  H {}  BC {} of {}  HR {:.2f} %  {:.1f} s", p.step, p.hexahedra,
                      p.components, p.input_components, 100 * p.hausdorff_ratio, p.seconds);
+}
+
+std::string text_of(const std::vector<AttemptFigures>& attempts) {
+  std::string text = "components by attempt:";
+  for (const AttemptFigures& a : attempts) text += fmt::format(" {}", a.components);
+  return text;
 }
 
 void complete_options(Request& request) {
@@ -154,7 +166,8 @@ SimplifyReport simplify_as_asked(cli::Program& program, Request& request, HexMes
   cli::ProgressLine line;
   if (line.on_terminal() || log) {
     o.observer = [&](const SimplifyProgress& p) {
-      line.show(text_of(p));
+      const std::string attempt = fmt::format("attempt {} of {}  ", p.attempt + 1, o.attempts);
+      line.show((o.attempts > 1 ? attempt : "") + text_of(p));
       if (log) write_log([&] { log->write(to_json(p)); });
     };
   }
@@ -181,6 +194,7 @@ int run(cli::Program& program, Request& request) {
   program.write_mesh(mesh);
   program.write_json(report.json());
   program.say(report.brief());
+  if (!report.attempts.empty()) program.say(text_of(report.attempts));
   if (request.profile) std::cerr << report.profile_table();
   if (report.stopped == StopReason::interrupted)
     program.say("interrupted: this is the mesh so far");

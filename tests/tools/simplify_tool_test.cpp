@@ -88,6 +88,19 @@ TEST_F(SimplifyTool, AngleFilterAndBoldTrialsAreOptions) {
   EXPECT_EQ(run("hexweft-simplify in.vtk -o out.vtk --max-boundary-angle 0").exit_code, 2);
 }
 
+TEST_F(SimplifyTool, TakesTheBestOfSeveralAttempts) {
+  ASSERT_EQ(run("hexweft-generate octree-like --shape blob --resolution 8 -o in.vtk").exit_code, 0);
+  const ToolRun r = run(
+      "hexweft-simplify in.vtk -o out.vtk --attempts 3 --threads 2 --json r.json --log log.jsonl");
+  ASSERT_EQ(r.exit_code, 0) << r.err;
+  EXPECT_THAT(r.out, testing::HasSubstr("components by attempt: "));
+  const auto j = nlohmann::json::parse(read_file(file("r.json")));
+  ASSERT_EQ(j["attempts"].size(), 3u);
+  for (const auto& a : j["attempts"]) EXPECT_LE(j["after"]["components"], a["components"]);
+  EXPECT_EQ(j["after"]["components"], j["attempts"][j["attempt"].get<int>()]["components"]);
+  EXPECT_EQ(run("hexweft-info out.vtk").exit_code, 0);
+}
+
 // Line searches on this one make ceres log warnings.
 TEST_F(SimplifyTool, IsQuietWhereNothingIsWrong) {
   const ToolRun r =
@@ -219,7 +232,8 @@ TEST_F(SimplifyTool, RefusesWhatItCannotUse) {
         "grid.vtk -o out.vtk --preset cube", "grid.vtk -o out.vtk --ranking height",
         "grid.vtk -o out.vtk --features sharp", "grid.vtk -o out.vtk --beta -1",
         "grid.vtk -o out.vtk --log grid.vtk", "grid.vtk -o out.vtk --checkpoint ./out.vtk",
-        "grid.vtk -o out.vtk --log a --checkpoint a", "grid.vtk -o out.vtk --threads 0"}) {
+        "grid.vtk -o out.vtk --log a --checkpoint a", "grid.vtk -o out.vtk --threads 0",
+        "grid.vtk -o out.vtk --attempts 0", "grid.vtk -o out.vtk --attempts 2 --checkpoint c"}) {
     SCOPED_TRACE(arguments);
     const ToolRun result = run("hexweft-simplify " + arguments);
     EXPECT_EQ(result.exit_code, 2);
