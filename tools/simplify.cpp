@@ -58,10 +58,11 @@ void add_options(CLI::App& app, Request& r) {
       ->check(cli::in_range(1, 1000))
       ->capture_default_str();
   app.add_flag("--no-chords", r.no_chords, "Collapse sheets only");
-  app.add_flag("!--no-careful-trials", o.careful.wanted,
-               "Do without the careful trials, which go first and ask for better hexahedra");
-  app.add_flag(
-      "!--no-bold-trials", o.bold.wanted,
+  app.add_flag_callback(
+      "--no-careful-trials", [&o] { o.careful.wanted = false; },
+      "Do without the careful trials, which go first and ask for better hexahedra");
+  app.add_flag_callback(
+      "--no-bold-trials", [&o] { o.bold.wanted = false; },
       "Do without the bold trials, which may take away layers under the surface and split sheets");
   cli::add_energy_option(app, r.energy, "Distortion that is made small, in steps and at the end");
   app.add_option("--features", r.features, cli::kFeaturesHelp)->capture_default_str();
