@@ -49,7 +49,7 @@ void summarize_scaled_jacobians(const HexMesh& mesh, int n_worst, QualitySummary
     ranked.emplace_back(sj, c);
     sum += sj;
     sum_of_squares += sj * sj;
-    q.n_inverted += sj <= 0;
+    q.n_inverted += !(sj > 0);
   }
   const double n = mesh.n_cells();
   q.mean_scaled_jacobian = sum / n;

@@ -38,7 +38,7 @@ double shape_metric(const HexMesh& mesh, CellHandle c);
 /// Quality of a whole mesh.
 struct QualitySummary {
   double min_scaled_jacobian = 1, mean_scaled_jacobian = 1, std_scaled_jacobian = 0;
-  int n_inverted = 0;                   ///< cells of scaled Jacobian <= 0
+  int n_inverted = 0;                   ///< cells of scaled Jacobian not > 0
   std::vector<CellHandle> worst_cells;  ///< by scaled Jacobian, worst first
   double total_volume = 0;
   double mean_volume_deviation = 0;  ///< AVDR

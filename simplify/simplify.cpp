@@ -34,7 +34,7 @@ void check_points(const HexMesh& mesh, const char* which) {
 
 CellHandle first_inverted(const HexMesh& mesh) {
   for (const CellHandle c : mesh.cells()) {
-    if (scaled_jacobian(mesh, c) <= 0) return c;
+    if (!(scaled_jacobian(mesh, c) > 0)) return c;
   }
   return CellHandle();
 }

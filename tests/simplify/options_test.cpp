@@ -82,6 +82,12 @@ TEST(Input, InvertedCellThatCannotBeUntangledIsNamed) {
   expect_refused(inside_out, "cell 0 ");
 }
 
+TEST(Input, CornerFarBeyondTheRestIsNamed) {
+  HexMesh mesh = make_grid({2, 2, 2});
+  mesh.set_point(VertexHandle(13), {1e200, 1, 1});  // products of lengths overflow
+  expect_refused(mesh, "cell 0 ");
+}
+
 TEST(Input, TangledSurfaceThatIsTooFarOnceUntangledIsRefused) {
   HexMesh mesh = make_grid({4, 4, 4});
   mesh.set_point(VertexHandle(12 + 100), {2, 2, -6});  // the middle of the top, through the bottom
