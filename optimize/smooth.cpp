@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "optimize/surface_distance.h"
 #include "ovm/errors.h"
 #include "ovm/neighborhood.h"
+#include "ovm/quality.h"
 #include "ovm/transaction.h"
 
 namespace hexweft {
@@ -242,34 +244,10 @@ SmoothingReport Smoother::run() {
   return report_;
 }
 
-SmoothingOptions untouched(SmoothingOptions options) {
-  options.global_rounds = options.local_trials = options.mean_rounds = 0;
-  return options;
-}
-
-}  // namespace
-
-void validate(const SmoothingOptions& o) {
-  const auto require = [](bool ok, const char* what, double value, const char* expected) {
-    if (!ok) {
-      throw InputError(std::string(what) + " = " + std::to_string(value) + ", expected " +
-                       expected);
-    }
-  };
-  require(o.hausdorff_limit_rel > 0, "hausdorff_limit_rel", o.hausdorff_limit_rel, "> 0");
-  require(o.global_rounds >= 0, "global_rounds", o.global_rounds, ">= 0");
-  require(o.mean_rounds >= 0, "mean_rounds", o.mean_rounds, ">= 0");
-  require(o.local_trials >= 0, "local_trials", o.local_trials, ">= 0");
-  require(o.enough_scaled_jacobian >= 0 && o.enough_scaled_jacobian <= 1, "enough_scaled_jacobian",
-          o.enough_scaled_jacobian, "[0, 1]");
-  validate(o.parametrization);
-}
-
-SmoothingReport smooth(HexMesh& mesh, const ReferenceSurface& reference,
-                       const SmoothingOptions& options) {
-  validate(options);
-  if (mesh.n_cells() == 0) return {};
-  const double before = hausdorff_distance(mesh, reference).ratio();
+/// One cycle. \param before  Hausdorff ratio at the start of the first
+/// \return nothing, with the mesh as it was, if all that it tried ended over the limit
+std::optional<SmoothingReport> run_cycle(HexMesh& mesh, const ReferenceSurface& reference,
+                                         const SmoothingOptions& options, double before) {
   // The passes do not look quite as closely as the last word; where that is
   // over the limit, they start again with a little less room.
   for (double room : {1.0, 0.9, 0.6}) {
@@ -283,9 +261,60 @@ SmoothingReport smooth(HexMesh& mesh, const ReferenceSurface& reference,
     attempt.commit();
     return report;
   }
-  Transaction attempt(mesh);
-  SmoothingReport report = Smoother(mesh, reference, untouched(options), 0).run();
+  return std::nullopt;
+}
+
+bool gained(const SmoothingReport& r) {
+  return r.min_scaled_jacobian >= r.initial_min_scaled_jacobian + kLeastGain ||
+         r.mean_scaled_jacobian >= r.initial_mean_scaled_jacobian + kMeanGain;
+}
+
+/// Of two cycles, one after the other.
+SmoothingReport both(const SmoothingReport& first, const SmoothingReport& then) {
+  SmoothingReport r = then;
+  r.initial_min_scaled_jacobian = first.initial_min_scaled_jacobian;
+  r.initial_mean_scaled_jacobian = first.initial_mean_scaled_jacobian;
+  r.accepted_global += first.accepted_global;
+  r.accepted_local += first.accepted_local;
+  r.trials += first.trials;
+  return r;
+}
+
+}  // namespace
+
+void validate(const SmoothingOptions& o) {
+  const auto require = [](bool ok, const char* what, double value, const char* expected) {
+    if (!ok) {
+      throw InputError(std::string(what) + " = " + std::to_string(value) + ", expected " +
+                       expected);
+    }
+  };
+  require(o.hausdorff_limit_rel > 0, "hausdorff_limit_rel", o.hausdorff_limit_rel, "> 0");
+  require(o.cycles > 0, "cycles", o.cycles, "> 0");
+  require(o.global_rounds >= 0, "global_rounds", o.global_rounds, ">= 0");
+  require(o.mean_rounds >= 0, "mean_rounds", o.mean_rounds, ">= 0");
+  require(o.local_trials >= 0, "local_trials", o.local_trials, ">= 0");
+  require(o.enough_scaled_jacobian >= 0 && o.enough_scaled_jacobian <= 1, "enough_scaled_jacobian",
+          o.enough_scaled_jacobian, "[0, 1]");
+  validate(o.parametrization);
+}
+
+SmoothingReport smooth(HexMesh& mesh, const ReferenceSurface& reference,
+                       const SmoothingOptions& options) {
+  validate(options);
+  if (mesh.n_cells() == 0) return {};
+  const double before = hausdorff_distance(mesh, reference).ratio();
+  SmoothingReport report;
+  report.initial_min_scaled_jacobian = report.min_scaled_jacobian = min_scaled_jacobian(mesh);
+  report.initial_mean_scaled_jacobian = report.mean_scaled_jacobian =
+      summarize_quality(mesh, 0).mean_scaled_jacobian;
   report.initial_hausdorff_rel = report.hausdorff_rel = before;
+  for (int cycle = 0; cycle < options.cycles && !options.stop.stop_requested(); ++cycle) {
+    const auto next = run_cycle(mesh, reference, options, before);
+    if (!next) break;
+    report = both(report, *next);
+    if (!gained(*next)) break;
+  }
   return report;
 }
 

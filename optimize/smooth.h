@@ -12,6 +12,7 @@ namespace hexweft {
 
 struct SmoothingOptions {
   double hausdorff_limit_rel = 0.01;  ///< > 0, fraction of the reference's bounding-box diagonal
+  int cycles = 2;          ///< > 0, of all the passes below; the next only if the last gained
   int global_rounds = 3;   ///< ≥ 0, passes over the whole mesh for the least scaled Jacobian
   int mean_rounds = 2;     ///< ≥ 0, passes over the whole mesh for the mean and even volumes
   int local_trials = 200;  ///< ≥ 0, passes over the neighborhood of a worst cell
@@ -30,11 +31,11 @@ struct SmoothingReport {
 };
 
 /// First the whole mesh is relaxed, then the neighborhoods of its worst cells, worst first, then the
-/// whole mesh for the mean. The default energy is taken in a sharper form over the whole mesh. Of a
-/// pass is kept what lowers no hexahedron below the least scaled Jacobian (of the mesh; of the
-/// neighborhood for a local one), and no part of the surface over the Hausdorff limit or over what
-/// the distance was if that is more; a pass that then gains nothing is undone. Ends when nothing
-/// gains. An inverted mesh is untangled if it can be.
+/// whole mesh for the mean; that is a cycle. The default energy is taken in a sharper form over the
+/// whole mesh. Of a pass is kept what lowers no hexahedron below the least scaled Jacobian (of the
+/// mesh; of the neighborhood for a local one), and no part of the surface over the Hausdorff limit or
+/// over what the distance was if that is more; a pass that then gains nothing is undone. Ends when
+/// nothing gains. An inverted mesh is untangled if it can be.
 SmoothingReport smooth(HexMesh& mesh, const ReferenceSurface& reference,
                        const SmoothingOptions& options = {});
 

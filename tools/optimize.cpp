@@ -48,6 +48,10 @@ void add_options(CLI::App& app, Request& request) {
       "--untangle", request.untangle,
       "Only make inverted hexahedra valid, whatever the distance; a mesh without any comes "
       "back as it is");
+  app.add_option("--cycles", o.cycles,
+                 "How often all of the following is done at most; again only if it gained")
+      ->check(cli::in_range(1, 1e6))
+      ->capture_default_str();
   app.add_option("--iterations", o.global_rounds,
                  "Passes over the whole mesh for its worst hexahedra at most")
       ->check(cli::in_range(0, 1e6))

@@ -66,6 +66,21 @@ TEST(Smooth, PassesForTheMeanRaiseItAndKeepTheLeast) {
   }
 }
 
+TEST(Smooth, MoreCyclesGoOnWhereOneEnds) {
+  for (Shape shape : {Shape::blob, Shape::double_torus}) {
+    SCOPED_TRACE(name(shape));
+    const HexMesh input = make_octree_like(shape, 12, 1);
+    const auto reference = make_reference_surface(input);
+    HexMesh once = input, often = input;
+    const SmoothingReport one = smooth(once, reference, {.cycles = 1, .local_trials = 20}),
+                          three = smooth(often, reference, {.cycles = 3, .local_trials = 20});
+    EXPECT_GT(three.trials, one.trials);
+    EXPECT_GE(three.min_scaled_jacobian, one.min_scaled_jacobian);
+    EXPECT_GE(three.mean_scaled_jacobian, one.initial_mean_scaled_jacobian);
+    EXPECT_LE(three.hausdorff_rel, 0.01);
+  }
+}
+
 TEST(Smooth, WorksWithEveryEnergyAndNeverInverts) {
   for (const Energy& energy : all_energies()) {
     HexMesh mesh = make_octree_like(Shape::blob, 8, 1);
@@ -102,6 +117,7 @@ TEST(Smooth, TakesAnEmptyMeshAndRefusesBadOptions) {
   const auto reference = make_reference_surface(box);
   EXPECT_EQ(smooth(mesh, reference).trials, 0);
   EXPECT_THROW(smooth(box, reference, {.hausdorff_limit_rel = 0}), InputError);
+  EXPECT_THROW(smooth(box, reference, {.cycles = 0}), InputError);
 }
 
 }  // namespace

@@ -124,6 +124,7 @@ TEST_F(OptimizeTool, RefusesWhatItCannotUse) {
                                         {"in.vtk -o out.vtk --energy no-such", 2},
                                         {"in.vtk -o out.vtk --hausdorff 0", 2},
                                         {"in.vtk -o out.vtk --iterations -1", 2},
+                                        {"in.vtk -o out.vtk --cycles 0", 2},
                                         {"in.vtk -o out.vtk --features sharp", 2},
                                         {"in.vtk -o out.vtk --features 200", 2},
                                         {"in.vtk -o out.vtk --surface -", 2},
