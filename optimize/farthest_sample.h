@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -81,6 +83,24 @@ class FarthestSample {
 
   Distance distance_;
   double farthest_, enough_;
+};
+
+/// Corners that triangles share: each is looked at once, when it is first asked for.
+template <class Search>
+class SharedCorners {
+ public:
+  /// \param search, points  must outlive this
+  SharedCorners(Search& search, const Eigen::Matrix3Xd& points)
+      : search_(search), points_(points), seen_(points.cols()) {}
+  const Sample& operator[](int v) {
+    if (!seen_[v]) seen_[v] = search_.look_at(points_.col(v));
+    return *seen_[v];
+  }
+
+ private:
+  Search& search_;
+  const Eigen::Matrix3Xd& points_;
+  std::vector<std::optional<Sample>> seen_;
 };
 
 }  // namespace hexweft

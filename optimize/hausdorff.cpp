@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <future>
-#include <optional>
 #include <string>
-#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -68,15 +66,11 @@ double one_sided_distance(const ReferenceSurface& from, const ReferenceSurface& 
   FarthestSample farthest(
       [&](const Eigen::Vector3d& p, double enough) { return to.distance(p, near, enough); },
       options.at_least, options.enough);
-  std::vector<std::optional<Sample>> corners(points.cols());
-  const auto corner = [&](int v) {
-    if (!corners[v]) corners[v] = farthest.look_at(points.col(v));
-    return *corners[v];
-  };
+  SharedCorners corners(farthest, points);
   for (const auto& t : triangles) {
     if (farthest.done()) break;
     const double share = area > 0 ? wanted * area_of(t) / area : 0;
-    farthest.look_at(corner(t[0]), corner(t[1]), corner(t[2]),
+    farthest.look_at(corners[t[0]], corners[t[1]], corners[t[2]],
                      levels_for(std::max<double>(options.points_per_triangle, share)));
   }
   return farthest.distance();

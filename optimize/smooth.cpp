@@ -14,7 +14,6 @@
 #include "optimize/surface_distance.h"
 #include "ovm/errors.h"
 #include "ovm/neighborhood.h"
-#include "ovm/quality.h"
 #include "ovm/transaction.h"
 
 namespace hexweft {
@@ -304,10 +303,10 @@ SmoothingReport smooth(HexMesh& mesh, const ReferenceSurface& reference,
   validate(options);
   if (mesh.n_cells() == 0) return {};
   const double before = hausdorff_distance(mesh, reference).ratio();
+  const Measure start = measure(quality(mesh, all_cells(mesh)));
   SmoothingReport report;
-  report.initial_min_scaled_jacobian = report.min_scaled_jacobian = min_scaled_jacobian(mesh);
-  report.initial_mean_scaled_jacobian = report.mean_scaled_jacobian =
-      summarize_quality(mesh, 0).mean_scaled_jacobian;
+  report.initial_min_scaled_jacobian = report.min_scaled_jacobian = start.least;
+  report.initial_mean_scaled_jacobian = report.mean_scaled_jacobian = start.mean;
   report.initial_hausdorff_rel = report.hausdorff_rel = before;
   for (int cycle = 0; cycle < options.cycles && !options.stop.stop_requested(); ++cycle) {
     const auto next = run_cycle(mesh, reference, options, before);

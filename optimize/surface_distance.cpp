@@ -35,18 +35,17 @@ double mean_area(const ReferenceSurface& reference) {
   return sum / static_cast<double>(reference.triangles().size());
 }
 
-/// The centroids of a triangle and of its subdivisions, with the midpoints that these make.
+/// Calls `visit` with a triangle and the levels left below it, then with the parts of its subdivisions.
 template <class F>
-void for_each_sample(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
-                     int levels, F&& visit) {
-  visit((a + b + c) / 3);
+void for_each_part(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
+                   int levels, F&& visit) {
+  visit(a, b, c, levels);
   if (levels == 0) return;
   const Eigen::Vector3d ab = (a + b) / 2, bc = (b + c) / 2, ca = (c + a) / 2;
-  for (const Eigen::Vector3d* p : {&ab, &bc, &ca}) visit(*p);
-  for_each_sample(a, ab, ca, levels - 1, visit);
-  for_each_sample(ab, b, bc, levels - 1, visit);
-  for_each_sample(ca, bc, c, levels - 1, visit);
-  for_each_sample(ab, bc, ca, levels - 1, visit);
+  for_each_part(a, ab, ca, levels - 1, visit);
+  for_each_part(ab, b, bc, levels - 1, visit);
+  for_each_part(ca, bc, c, levels - 1, visit);
+  for_each_part(ab, bc, ca, levels - 1, visit);
 }
 
 /// A grid over the reference's box with cells about the size of its triangles.
@@ -125,7 +124,8 @@ void SurfaceDistance::make_samples(int levels) {
     }
     own.first_centroid = static_cast<int>(samples_.size());
     const Eigen::Vector3d a = points.col(t[0]), b = points.col(t[1]), c = points.col(t[2]);
-    add_samples(a, b, c, levels + levels_for(a, b, c));
+    for_each_part(a, b, c, levels + levels_for(a, b, c),
+                  [&](const auto& p, const auto& q, const auto& r, int) { add((p + q + r) / 3); });
     own.end = static_cast<int>(samples_.size());
   }
 }
@@ -143,17 +143,6 @@ void SurfaceDistance::add_sample(const Eigen::Vector3d& p) {
   samples_.push_back(p);
   backward_.push_back(0);
   nearest_side_.add_sample();
-}
-
-void SurfaceDistance::add_samples(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                                  const Eigen::Vector3d& c, int levels) {
-  add_sample((a + b + c) / 3);
-  if (levels == 0) return;
-  const Eigen::Vector3d ab = (a + b) / 2, bc = (b + c) / 2, ca = (c + a) / 2;
-  add_samples(a, ab, ca, levels - 1);
-  add_samples(ab, b, bc, levels - 1);
-  add_samples(ca, bc, c, levels - 1);
-  add_samples(ab, bc, ca, levels - 1);
 }
 
 double SurfaceDistance::forward() const {
@@ -196,11 +185,18 @@ double SurfaceDistance::forward_distance(const HexMesh& mesh, int side, double l
     d = std::max(d, cache.vertex(vertices[i], q[i], d));
     d = std::max(d, cache.edge(edges[i], (q[i] + q[(i + 1) % 4]) / 2, d));
   }
+  const auto look_at_part = [&](const auto& a, const auto& b, const auto& c, int levels) {
+    look_at((a + b + c) / 3);
+    if (levels == 0) return;
+    look_at((a + b) / 2);
+    look_at((b + c) / 2);
+    look_at((c + a) / 2);
+  };
   const auto look_at_parts = [&](int levels) {
     const int first = levels + levels_for(q[0], q[1], q[2]),
               second = levels + levels_for(q[2], q[3], q[0]);
-    for_each_sample(q[0], q[1], q[2], first, look_at);
-    for_each_sample(q[2], q[3], q[0], second, look_at);
+    for_each_part(q[0], q[1], q[2], first, look_at_part);
+    for_each_part(q[2], q[3], q[0], second, look_at_part);
   };
   look_at_parts(options_.mesh_levels);
   const bool suspect = d > options_.suspect_rel * limit && d <= limit;

@@ -94,8 +94,6 @@ class SurfaceDistance {
   void make_room(int n_sides);
   void make_samples(int levels);
   void add_sample(const Eigen::Vector3d& p);
-  void add_samples(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
-                   int levels);
   bool update_side(const HexMesh& mesh, int side);
   int levels_for(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                  const Eigen::Vector3d& c) const;

@@ -1,7 +1,6 @@
 // The change of a SurfaceDistance between its samples.
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <vector>
 
 #include "optimize/farthest_sample.h"
@@ -59,18 +58,14 @@ bool SurfaceDistance::changed_triangles_are_within(double limit, double skip) {
     for (int v : corners) near_change[v] = 1;
   }
   const auto& points = reference_.points();
-  std::vector<std::optional<Sample>> seen(points.cols());
-  const auto corner = [&](int v) {
-    if (!seen[v]) seen[v] = farthest.look_at(points.col(v));
-    return *seen[v];
-  };
+  SharedCorners seen(farthest, points);
   for (std::size_t t = 0; t < triangles.size() && !farthest.done(); ++t) {
     const auto& corners = triangles[t];
     if (std::none_of(corners.begin(), corners.end(), [&](int v) { return near_change[v] != 0; }))
       continue;
     const TriangleSamples& own = samples_of_triangle_[t];
     guess = nearest_side_.side(own.first_centroid);
-    const Sample a = corner(corners[0]), b = corner(corners[1]), c = corner(corners[2]);
+    const Sample &a = seen[corners[0]], &b = seen[corners[1]], &c = seen[corners[2]];
     farthest.look_at(a, b, c, kLevels + levels_for(a.point, b.point, c.point));
     if (farthest.done()) too_far_at_ = (a.point + b.point + c.point) / 3;
   }

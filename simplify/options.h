@@ -50,9 +50,9 @@ struct SimplifyOptions {
   int rings = 3;
   /// > 0, runs from the input, of which the outcome of the fewest components is taken (attempts.h)
   int attempts = 1;
-  int threads =
-      1;  ///< > 0, attempts at a time; of one attempt two are used, for the two directions
-          ///< of distance checks at full sampling
+  /// > 0, attempts at a time; a single one uses two, for the two directions of distance checks at
+  /// full sampling
+  int threads = 1;
   bool smooth = true;         ///< global smoothing at the end
   int smoothing_trials = 50;  ///< >= 0, passes over the neighbourhoods of the worst cells then
   double give_up_factor = 2;  ///< >= 1; half relaxed and so many limits away, a trial ends

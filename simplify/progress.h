@@ -30,8 +30,8 @@ struct SimplifyProgress {
   std::optional<SheetTerms> sheet_terms = {};  ///< of a sheet, before it went
   std::optional<ChordTerms> chord_terms = {};  ///< of a chord, before it went
 
-  int attempt = 0;
-  int step = 0;  ///< collapses and splits so far; relief and smoothing belong to the one before
+  int attempt = 0;  ///< of several, from 0
+  int step = 0;     ///< collapses and splits so far; relief and smoothing belong to the one before
   int hexahedra = 0;
   /// When last counted. Of collapses far enough from each other to be made at one go they are counted
   /// after the last.

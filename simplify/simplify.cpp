@@ -16,15 +16,12 @@
 namespace hexweft {
 namespace {
 
-void check_connectivity(const HexMesh& mesh, const char* which) {
+void check_mesh(const HexMesh& mesh, const char* which) {
   for (const TopologyViolation& v : check_topology(mesh)) {
     if (severity(v.defect) == Severity::invalid)
       throw InputError(fmt::format("{} is not valid: {}", which, v.message));
   }
   if (mesh.n_cells() == 0) throw InputError(fmt::format("{} has no cells", which));
-}
-
-void check_points(const HexMesh& mesh, const char* which) {
   for (const VertexHandle v : mesh.vertices()) {
     if (mesh.point(v).allFinite()) continue;
     throw InputError(
@@ -69,14 +66,12 @@ SimplifyReport run_on(HexMesh& mesh, const Checkpoint* from, const SimplifyOptio
   // Normals are averaged across edges less sharp than this; it has no say in what is a feature line.
   constexpr double kNormalAngle = 40;
   validate(options);
-  check_connectivity(mesh, "the mesh");
-  check_points(mesh, "the mesh");
+  check_mesh(mesh, "the mesh");
   if (from) {
     if (options.attempts > 1)
       throw InputError(
           fmt::format("attempts = {} of a run that is resumed, expected 1", options.attempts));
-    check_connectivity(from->mesh, "the checkpoint's mesh");
-    check_points(from->mesh, "the checkpoint's mesh");
+    check_mesh(from->mesh, "the checkpoint's mesh");
     expect_no_inverted(from->mesh, "the checkpoint's mesh");
   }
   const ReferenceSurface reference = make_reference_surface(mesh, kNormalAngle, options.features);

@@ -36,4 +36,12 @@ inline void expect_good_output(const HexMesh& input, const HexMesh& output,
   EXPECT_EQ(report.after.min_scaled_jacobian, min_scaled_jacobian(output));
 }
 
+/// Simplifies a copy, of which all that must hold.
+inline SimplifyReport simplify_well(const HexMesh& input, const SimplifyOptions& options = {}) {
+  HexMesh mesh = input;
+  const SimplifyReport report = simplify(mesh, options);
+  expect_good_output(input, mesh, report, options.hausdorff_limit_rel);
+  return report;
+}
+
 }  // namespace hexweft

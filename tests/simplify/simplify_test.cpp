@@ -25,9 +25,7 @@ INSTANTIATE_TEST_SUITE_P(Simplify, RandomSheet, testing::Range(1u, 11u));
 TEST_P(RandomSheet, IsFoundAndRemovedFromAGrid) {
   const HexMesh input = make_grid_with_random_sheets(1, GetParam());
   ASSERT_GT(extract_base_complex(input).components.size(), 1u);
-  HexMesh mesh = input;
-  const SimplifyReport report = simplify(mesh);
-  expect_good_output(input, mesh, report);
+  const SimplifyReport report = simplify_well(input);
   EXPECT_EQ(report.after.components, 1);
   EXPECT_EQ(report.stopped, StopReason::nothing_left);
 }
@@ -37,9 +35,7 @@ TEST(Simplify, SeveralRandomSheetsAreMostlyRemoved) {
   int back_to_one = 0;
   for (unsigned seed = 1; seed <= 8; ++seed) {
     const HexMesh input = make_grid_with_random_sheets(3, seed);
-    HexMesh mesh = input;
-    const SimplifyReport report = simplify(mesh);
-    expect_good_output(input, mesh, report);
+    const SimplifyReport report = simplify_well(input);
     back_to_one += report.after.components == 1;
   }
   EXPECT_GE(back_to_one, 4);
@@ -47,9 +43,7 @@ TEST(Simplify, SeveralRandomSheetsAreMostlyRemoved) {
 
 TEST(Simplify, PillowIsRemoved) {
   const HexMesh input = make_pillowed_grid(5);
-  HexMesh mesh = input;
-  const SimplifyReport report = simplify(mesh);
-  expect_good_output(input, mesh, report);
+  const SimplifyReport report = simplify_well(input);
   EXPECT_EQ(report.before.components, 33);
   EXPECT_EQ(report.after.components, 1);
   EXPECT_GE(report.sheets.accepted + report.chords.accepted, 1);
@@ -70,9 +64,7 @@ TEST(Simplify, InvertedCellsOfTheInputAreUntangledFirst) {
       input.set_point(v, q);
     }
     ASSERT_LT(min_scaled_jacobian(input), 0);
-    HexMesh mesh = input;
-    const SimplifyReport report = simplify(mesh);
-    expect_good_output(input, mesh, report);
+    const SimplifyReport report = simplify_well(input);
     EXPECT_GT(report.before.inverted, 0);
     EXPECT_LT(report.before.min_scaled_jacobian, 0);
     EXPECT_EQ(report.after.components, 1);
@@ -92,17 +84,13 @@ TEST(Simplify, GridStaysOneComponent) {
 
 TEST(Simplify, LShapeKeepsItsArms) {
   const HexMesh input = make_l_shape(2);
-  HexMesh mesh = input;
-  const SimplifyReport report = simplify(mesh);
-  expect_good_output(input, mesh, report);
+  const SimplifyReport report = simplify_well(input);
   EXPECT_EQ(report.after.components, 3);
 }
 
 TEST(Simplify, TorusKeepsItsHole) {
   const HexMesh input = make_torus({.n_around = 12});
-  HexMesh mesh = input;
-  const SimplifyReport report = simplify(mesh);
-  expect_good_output(input, mesh, report);
+  const SimplifyReport report = simplify_well(input);
   EXPECT_EQ(report.after.genus, 1);
   EXPECT_GE(report.after.components, 3);
 }
@@ -110,9 +98,7 @@ TEST(Simplify, TorusKeepsItsHole) {
 TEST(Simplify, TwoPartsStayTwo) {
   HexMesh input = make_pillowed_grid(3);
   append(input, make_grid({2, 2, 2}), {5, 0, 0});
-  HexMesh mesh = input;
-  const SimplifyReport report = simplify(mesh);
-  expect_good_output(input, mesh, report);
+  const SimplifyReport report = simplify_well(input);
   EXPECT_EQ(report.after.parts, 2);
   EXPECT_EQ(report.before.components, 34);
   EXPECT_EQ(report.after.components, 2);
@@ -135,7 +121,6 @@ HexMesh make_small_sphere() { return make_octree_like(Shape::sphere, 6); }
 
 TEST(Simplify, StopFromTheObserverStopsAfterThatStep) {
   const HexMesh input = make_small_sphere();
-  HexMesh mesh = input;
   std::stop_source source;
   SimplifyOptions options;
   options.stop = source.get_token();
@@ -147,8 +132,7 @@ TEST(Simplify, StopFromTheObserverStopsAfterThatStep) {
     EXPECT_GT(p.hexahedra, 0);
     if (calls == 2) source.request_stop();
   };
-  const SimplifyReport report = simplify(mesh, options);
-  expect_good_output(input, mesh, report);
+  const SimplifyReport report = simplify_well(input, options);
   EXPECT_EQ(report.stopped, StopReason::interrupted);
   EXPECT_EQ(calls, 2);
   EXPECT_EQ(report.sheets.accepted + report.chords.accepted, 2);
@@ -157,11 +141,9 @@ TEST(Simplify, StopFromTheObserverStopsAfterThatStep) {
 
 TEST(Simplify, StopsAtTheTargetRate) {
   const HexMesh input = make_small_sphere();
-  HexMesh mesh = input;
   SimplifyOptions options;
   options.target_rate = 0.3;
-  const SimplifyReport report = simplify(mesh, options);
-  expect_good_output(input, mesh, report);
+  const SimplifyReport report = simplify_well(input, options);
   EXPECT_EQ(report.stopped, StopReason::target_reached);
   EXPECT_GE(report.rate(), 0.3);
 }
@@ -184,22 +166,18 @@ TEST(Simplify, StopsAtTheTargetOfComponents) {
 
 TEST(Simplify, StopsWhenTheTimeIsOver) {
   const HexMesh input = make_small_sphere();
-  HexMesh mesh = input;
   SimplifyOptions options;
   options.max_seconds = 1e-9;
-  const SimplifyReport report = simplify(mesh, options);
-  expect_good_output(input, mesh, report);
+  const SimplifyReport report = simplify_well(input, options);
   EXPECT_EQ(report.stopped, StopReason::out_of_time);
   EXPECT_EQ(report.sheets.accepted + report.chords.accepted, 0);
 }
 
 TEST(Simplify, WithoutChordsOnlySheetsGo) {
   const HexMesh input = make_pillowed_grid(3);
-  HexMesh mesh = input;
   SimplifyOptions options;
   options.chords = false;
-  const SimplifyReport report = simplify(mesh, options);
-  expect_good_output(input, mesh, report);
+  const SimplifyReport report = simplify_well(input, options);
   EXPECT_EQ(report.chords.accepted, 0);
   for (int n : report.chords.refused) EXPECT_EQ(n, 0);
   EXPECT_EQ(report.after.components, 1);
@@ -241,7 +219,6 @@ TEST(Simplify, MoreHexahedraComeWhenAskedForEvenIfNothingGoes) {
 
 TEST(Simplify, StopDuringRefinementEndsIt) {
   const HexMesh input = make_grid({4, 3, 2});
-  HexMesh mesh = input;
   std::stop_source source;
   SimplifyOptions options;
   options.target_hexahedra_rel = 50;
@@ -250,8 +227,7 @@ TEST(Simplify, StopDuringRefinementEndsIt) {
     if (p.what == StepKind::refinement) source.request_stop();
     EXPECT_NE(p.what, StepKind::smoothing);
   };
-  const SimplifyReport report = simplify(mesh, options);
-  expect_good_output(input, mesh, report);
+  const SimplifyReport report = simplify_well(input, options);
   EXPECT_EQ(report.stopped, StopReason::interrupted);
   EXPECT_LE(report.refined, 1);
 }
@@ -280,7 +256,6 @@ TEST(Simplify, StopBeforeTheSmoothingLeavesItOut) {
 
 TEST(Simplify, StopDuringTheSmoothingLeavesAValidMesh) {
   const HexMesh input = make_small_sphere();
-  HexMesh mesh = input;
   std::stop_source source;
   SimplifyOptions options;
   options.stop = source.get_token();
@@ -292,8 +267,7 @@ TEST(Simplify, StopDuringTheSmoothingLeavesAValidMesh) {
       source.request_stop();
     });
   };
-  const SimplifyReport report = simplify(mesh, options);
-  expect_good_output(input, mesh, report);
+  simplify_well(input, options);
 }
 
 TEST(Simplify, ObserverIsToldOfEveryKindOfStep) {
