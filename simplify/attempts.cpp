@@ -48,7 +48,8 @@ class Attempts {
     });
     report.attempts = std::move(done_);
     report.seconds = seconds();
-    if (cut_short_) report.stopped = *cut_short_;
+    // A later attempt that is cut short takes nothing from one that has all that was asked for.
+    if (cut_short_ && !reached_target(report)) report.stopped = *cut_short_;
     return std::move(*best_);
   }
 

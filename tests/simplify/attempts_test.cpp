@@ -1,7 +1,9 @@
 // Several runs, of which the best is taken.
 #include "simplify/attempts.h"
 
+#include <chrono>
 #include <set>
+#include <thread>
 
 #include <gmock/gmock.h>
 
@@ -87,6 +89,21 @@ TEST(Attempts, NoneIsBegunAfterTheTargetIsReached) {
     EXPECT_GE(report.rate(), 0.3);
     EXPECT_LE(report.attempts.size(), static_cast<std::size_t>(threads));
   }
+}
+
+TEST(Attempts, OneThatReachesTheTargetIsNotCutShortByALaterOne) {
+  std::stop_source stop;
+  SimplifyOptions options = some_attempts(2);
+  options.target_rate = 0.3;
+  options.stop = stop.get_token();
+  options.observer = [&](const SimplifyProgress& p) {
+    if (p.attempt == 0 && p.what == StepKind::smoothing) stop.request_stop();
+    if (p.attempt == 1) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  };
+  HexMesh mesh = make_input();
+  const SimplifyReport report = simplify(mesh, options);
+  EXPECT_EQ(report.attempt, 0);
+  EXPECT_EQ(report.stopped, StopReason::target_reached);
 }
 
 TEST(Attempts, TheFirstIsMadeEvenIfStopped) {
