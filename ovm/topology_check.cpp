@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <numeric>
 #include <tuple>
 
@@ -36,6 +37,7 @@ class TopologyChecker {
   void check(CellHandle c);
   void check(EdgeHandle e);
   void check(VertexHandle v);
+  const std::vector<TopologyViolation>& violations() const { return violations_; }
   std::vector<TopologyViolation> take();
 
  private:
@@ -228,6 +230,26 @@ void sort_unique(std::vector<HandleT>& handles) {
   handles.erase(std::unique(handles.begin(), handles.end()), handles.end());
 }
 
+// Calls `visit` with the vertices, then with the edges and cells at them, until it returns false.
+// \return whether it never did
+template <class Visit>
+bool for_each_touched(const HexMesh& mesh, std::span<const VertexHandle> vertices, Visit&& visit) {
+  std::vector<VertexHandle> live;
+  std::copy_if(vertices.begin(), vertices.end(), std::back_inserter(live),
+               [&](VertexHandle v) { return mesh.is_live(v); });
+  sort_unique(live);
+  if (!std::all_of(live.begin(), live.end(), visit)) return false;
+  std::vector<EdgeHandle> edges;
+  std::vector<CellHandle> cells;
+  for (VertexHandle v : live) {
+    for (EdgeHandle e : mesh.edges(v)) edges.push_back(e);
+    for (CellHandle c : mesh.cells(v)) cells.push_back(c);
+  }
+  sort_unique(edges), sort_unique(cells);
+  return std::all_of(edges.begin(), edges.end(), visit) &&
+         std::all_of(cells.begin(), cells.end(), visit);
+}
+
 }  // namespace
 
 Severity severity(TopologyDefect defect) {
@@ -253,26 +275,25 @@ std::vector<TopologyViolation> check_topology(const HexMesh& mesh) {
 
 std::vector<TopologyViolation> check_topology(const HexMesh& mesh,
                                               std::span<const VertexHandle> vertices) {
-  std::vector<VertexHandle> named;
-  std::vector<EdgeHandle> edges;
-  std::vector<CellHandle> cells;
-  for (VertexHandle v : vertices) {
-    if (!mesh.is_live(v)) continue;
-    named.push_back(v);
-    for (EdgeHandle e : mesh.edges(v)) edges.push_back(e);
-    for (CellHandle c : mesh.cells(v)) cells.push_back(c);
-  }
-  sort_unique(named), sort_unique(edges), sort_unique(cells);
   TopologyChecker checker(mesh);
-  for (CellHandle c : cells) checker.check(c);
-  for (EdgeHandle e : edges) checker.check(e);
-  for (VertexHandle v : named) checker.check(v);
+  for_each_touched(mesh, vertices, [&](auto element) {
+    checker.check(element);
+    return true;
+  });
   return checker.take();
 }
 
 bool is_clean(std::span<const TopologyViolation> violations, Severity at_least) {
   return std::none_of(violations.begin(), violations.end(),
                       [&](const TopologyViolation& v) { return severity(v.defect) >= at_least; });
+}
+
+bool is_clean(const HexMesh& mesh, std::span<const VertexHandle> vertices, Severity at_least) {
+  TopologyChecker checker(mesh);
+  return for_each_touched(mesh, vertices, [&](auto element) {
+    checker.check(element);
+    return is_clean(checker.violations(), at_least);
+  });
 }
 
 bool is_valid(const HexMesh& mesh) { return is_clean(check_topology(mesh)); }

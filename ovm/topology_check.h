@@ -54,6 +54,9 @@ std::vector<TopologyViolation> check_topology(const HexMesh& mesh,
 /// True if nothing of severity `at_least` or above is wrong.
 bool is_clean(std::span<const TopologyViolation> violations, Severity at_least = Severity::invalid);
 
+/// What is_clean(check_topology(mesh, vertices), at_least) is, without looking further than the first.
+bool is_clean(const HexMesh& mesh, std::span<const VertexHandle> vertices, Severity at_least);
+
 /// No violation is `invalid`.
 bool is_valid(const HexMesh& mesh);
 

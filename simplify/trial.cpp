@@ -34,8 +34,8 @@ std::vector<VertexHandle> with_neighbors(const HexMesh& mesh, std::span<const Ve
 Refusal check_topology_after(const HexMesh& mesh, std::span<const VertexHandle> left, int euler) {
   if (left.empty()) return Refusal::vanishing;
   if (euler_of_live(mesh) != euler) return Refusal::topology;
-  const auto violations = check_topology(mesh, with_neighbors(mesh, left));
-  return is_clean(violations, Severity::degenerate) ? Refusal::none : Refusal::topology;
+  const bool clean = is_clean(mesh, with_neighbors(mesh, left), Severity::degenerate);
+  return clean ? Refusal::none : Refusal::topology;
 }
 
 // Genus is kept by the Euler number and the count of boundary surfaces and parts.

@@ -245,7 +245,7 @@ bool SheetInserter::is_sound() const {
     touched.push_back(v.outer);
     touched.push_back(v.inner);
   }
-  return is_clean(check_topology(mesh_, touched), Severity::degenerate);
+  return is_clean(mesh_, touched, Severity::degenerate);
 }
 
 SheetInsertion SheetInserter::run() {

@@ -58,6 +58,9 @@ TEST_P(EveryMeshFamily, LocalCheckFindsWhatTheGlobalOneFindsThere) {
       EXPECT_THAT(local, Contains(IsDefect(x.defect, x.index)));
     }
     for (const auto& x : local) EXPECT_THAT(global, Contains(IsDefect(x.defect, x.index)));
+    for (const Severity s : {Severity::note, Severity::degenerate, Severity::invalid}) {
+      EXPECT_EQ(is_clean(mesh, std::array{v}, s), is_clean(local, s));
+    }
   }
 }
 
