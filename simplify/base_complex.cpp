@@ -193,17 +193,28 @@ class Extractor {
     for (at[axis] = 0; at[axis] <= comp.n[axis]; ++at[axis]) {
       chain_.push_back(bc_.vertex(comp, at[0], at[1], at[2]));
     }
-    const EdgeHandle first = mesh_.find_edge(chain_[0], chain_[1]);
+    const EdgeHandle first = edge_of_chain(comp, edge, 0);
     if (const int known = bc_.base_edge_of_edge[first.idx]; known >= 0) {
       const auto old = bc_.chain(bc_.edges[known]);
       const bool same = std::equal(chain_.begin(), chain_.end(), old.begin(), old.end()) ||
                         std::equal(chain_.rbegin(), chain_.rend(), old.begin(), old.end());
       return same ? known : -1;
     }
-    return add_base_edge(first);
+    return add_base_edge(comp, edge);
   }
 
-  int add_base_edge(EdgeHandle first) {
+  // Edge i of the chain along a component's edge.
+  EdgeHandle edge_of_chain(const Component& comp, int edge, int i) const {
+    const auto& x = kCornerCoords[kEdgeCorners[edge][0]];
+    std::array<int, 3> at;
+    for (int a = 0; a < 3; ++a) at[a] = x[a] * (comp.n[a] - 1);
+    at[edge_axis(edge)] = i;
+    return hexweft::edge(mesh_, frame(comp, at[0], at[1], at[2]), x[0] | x[1] << 1 | x[2] << 2,
+                         edge_axis(edge));
+  }
+
+  int add_base_edge(const Component& comp, int edge) {
+    const EdgeHandle first = edge_of_chain(comp, edge, 0);
     BaseEdge e;
     e.first = static_cast<int>(bc_.edge_vertices.size());
     e.n = static_cast<int>(chain_.size()) - 1;
@@ -213,7 +224,7 @@ class Extractor {
     e.singular = bc_.graph.singular_edge[first.idx];
     const int id = static_cast<int>(bc_.edges.size());
     for (int i = 0; i < e.n; ++i) {
-      int& of = bc_.base_edge_of_edge[mesh_.find_edge(chain_[i], chain_[i + 1]).idx];
+      int& of = bc_.base_edge_of_edge[edge_of_chain(comp, edge, i).idx];
       if (of >= 0) return -1;
       of = id;
     }

@@ -123,14 +123,23 @@ double thickness(const HexMesh& mesh, const BaseComplex& bc, const Sheet& sheet,
   return (w.min_width * least + w.mean_width * mean) / mean_edge;
 }
 
-double distortion_term(const BaseComplex& bc, const Sheet& sheet,
-                       const std::vector<double>& differences, double threshold) {
-  double sum = 0;
-  for (const Crossing& x : sheet.crossings) {
-    for (CellHandle c : bc.cells(bc.components[x.component])) {
+// By component, of the cells that are distorted.
+std::vector<double> distortions(const HexMesh& mesh, const BaseComplex& bc, double threshold) {
+  const std::vector<double> differences = shape_differences(mesh);
+  std::vector<double> sums;
+  for (const Component& component : bc.components) {
+    double sum = 0;
+    for (CellHandle c : bc.cells(component)) {
       if (differences[c.idx] >= threshold) sum += differences[c.idx];
     }
+    sums.push_back(sum);
   }
+  return sums;
+}
+
+double distortion_term(const Sheet& sheet, const std::vector<double>& distortions) {
+  double sum = 0;
+  for (const Crossing& x : sheet.crossings) sum += distortions[x.component];
   return 1 / std::log(sum + std::numbers::e);
 }
 
@@ -171,7 +180,7 @@ std::vector<double> shape_differences(const HexMesh& mesh) {
 
 std::vector<SheetTerms> rank_sheets(const HexMesh& mesh, const BaseComplex& bc,
                                     const std::vector<Sheet>& sheets, const RankingWeights& w) {
-  const std::vector<double> differences = shape_differences(mesh);
+  const std::vector<double> distorted = distortions(mesh, bc, w.distortion_threshold);
   const double mean_edge = mean_edge_length(mesh);
   std::size_t most_edges = 1;  // DM
   for (const Sheet& s : sheets) most_edges = std::max(most_edges, s.edges.size());
@@ -184,7 +193,7 @@ std::vector<SheetTerms> rank_sheets(const HexMesh& mesh, const BaseComplex& bc,
     t.valence = (dm - w.beta * (groups.gain(s) + middle_gain(bc, s))) / dm;
     t.thickness = thickness(mesh, bc, s, mean_edge, w);
     t.width = std::cbrt(t.thickness);
-    t.distortion = distortion_term(bc, s, differences, w.distortion_threshold);
+    t.distortion = distortion_term(s, distorted);
     t.energy = w.k_distortion * (1 - std::exp(-t.distortion)) +
                w.k_width * (1 - std::exp(-t.width)) + w.k_valence * (1 - std::exp(-t.valence));
     result.push_back(t);
