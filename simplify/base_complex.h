@@ -73,6 +73,9 @@ struct BaseComplex {
   std::span<const CellHandle> cells(const Component& c) const {
     return {grid_cells.data() + c.first_cell, static_cast<std::size_t>(c.n_cells())};
   }
+  std::span<const VertexHandle> grid(const Component& c) const {
+    return {grid_vertices.data() + c.first_vertex, static_cast<std::size_t>(c.n_vertices())};
+  }
   CellHandle cell(const Component& c, int i, int j, int k) const {
     return grid_cells[c.first_cell + (k * c.n[1] + j) * c.n[0] + i];
   }

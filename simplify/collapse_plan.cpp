@@ -95,23 +95,36 @@ int sheet_to_shorten(const BaseComplex& bc, const Chord& chord, const std::vecto
   return id;
 }
 
+// Cells along the shorter side of its cross-section.
+int side_of(const BaseComplex& bc, const Chord& chord) {
+  const auto [u, v] = section_axes(chord.links.front());
+  const auto& n = bc.components[chord.links.front().component].n;
+  return std::min(n[u], n[v]);
+}
+
+// Which layers of a sheet go, in its direction: the thinnest.
+std::vector<char> thinnest_layers(const HexMesh& mesh, const BaseComplex& bc, const Sheet& sheet,
+                                  int n) {
+  std::vector<std::pair<double, int>> by_length(sheet.width);
+  for (int i = 0; i < sheet.width; ++i) by_length[i] = {0.0, i};
+  for (std::size_t i = 0; i < sheet.edges.size(); ++i) {
+    const auto chain = bc.chain(bc.edges[sheet.edges[i]]);
+    for (int k = 0; k < sheet.width; ++k) {
+      const int layer = sheet.against[i] ? sheet.width - 1 - k : k;
+      by_length[layer].first += (mesh.point(chain[k + 1]) - mesh.point(chain[k])).norm();
+    }
+  }
+  std::sort(by_length.begin(), by_length.end());
+  std::vector<char> removed(sheet.width, 0);
+  for (int i = 0; i < n; ++i) removed[by_length[i].second] = 1;
+  return removed;
+}
+
 // Some layers of a sheet that go away, the others close up.
 class LayerRemoval {
  public:
-  LayerRemoval(const HexMesh& mesh, const BaseComplex& bc, const Sheet& sheet, int n_removed)
-      : bc_(bc), sheet_(sheet), removed_(sheet.width, 0) {
-    std::vector<std::pair<double, int>> by_length(sheet.width);
-    for (int i = 0; i < sheet.width; ++i) by_length[i] = {0.0, i};
-    for (std::size_t i = 0; i < sheet.edges.size(); ++i) {
-      const auto chain = bc.chain(bc.edges[sheet.edges[i]]);
-      for (int k = 0; k < sheet.width; ++k) {
-        const int layer = sheet.against[i] ? sheet.width - 1 - k : k;
-        by_length[layer].first += (mesh.point(chain[k + 1]) - mesh.point(chain[k])).norm();
-      }
-    }
-    std::sort(by_length.begin(), by_length.end());
-    for (int i = 0; i < n_removed; ++i) removed_[by_length[i].second] = 1;
-  }
+  LayerRemoval(const BaseComplex& bc, const Sheet& sheet, std::vector<char> removed)
+      : bc_(bc), sheet_(sheet), removed_(std::move(removed)) {}
 
   /// Whether layer i of a component along this axis, counted in the component's direction, goes.
   bool removes(const Crossing& x, int i) const {
@@ -192,6 +205,14 @@ std::vector<int> all_coordinates(int n) {
 
 }  // namespace
 
+Shortening find_shortening(const HexMesh& mesh, const BaseComplex& bc, const Chord& chord,
+                           const std::vector<Sheet>& sheets) {
+  const int id = sheet_to_shorten(bc, chord, sheets);
+  if (id < 0) return {};
+  return {&sheets[id],
+          thinnest_layers(mesh, bc, sheets[id], sheets[id].width - side_of(bc, chord))};
+}
+
 Refusal can_plan(const BaseComplex& bc, const Chord& chord, const std::vector<Sheet>& sheets) {
   if (chord.twisted || chord.self_crossing) return Refusal::twisted;
   const int id = sheet_to_shorten(bc, chord, sheets);
@@ -203,12 +224,10 @@ Refusal can_plan(const BaseComplex& bc, const Chord& chord, const std::vector<Sh
 CollapsePlan plan_chord_collapse(const HexMesh& mesh, const BaseComplex& bc, const Chord& chord,
                                  Diagonal diagonal, const std::vector<Sheet>& sheets) {
   PlanBuilder builder(mesh);
-  const auto axes = section_axes(chord.links.front());
-  const auto& n = bc.components[chord.links.front().component].n;
-  const int side = std::min(n[axes[0]], n[axes[1]]);
+  const int side = side_of(bc, chord);
   std::optional<LayerRemoval> shorten;
-  if (const int id = sheet_to_shorten(bc, chord, sheets); id >= 0) {
-    shorten.emplace(mesh, bc, sheets[id], sheets[id].width - side);
+  if (Shortening s = find_shortening(mesh, bc, chord, sheets); s.sheet) {
+    shorten.emplace(bc, *s.sheet, std::move(s.removed));
     shorten->add_to(builder);
   }
   for (const ChordLink& l : chord.links) {

@@ -38,6 +38,14 @@ CollapsePlan plan_chord_collapse(const HexMesh& mesh, const BaseComplex& bc, con
                                  Diagonal diagonal, const std::vector<Sheet>& sheets);
 Refusal can_plan(const BaseComplex& bc, const Chord& chord, const std::vector<Sheet>& sheets);
 
+/// What has to go with a chord for the sides of its cross-section to be equal.
+struct Shortening {
+  const Sheet* sheet = nullptr;  ///< across the longer side, none if they are equal
+  std::vector<char> removed;     ///< by layer in the sheet's direction
+};
+Shortening find_shortening(const HexMesh& mesh, const BaseComplex& bc, const Chord& chord,
+                           const std::vector<Sheet>& sheets);
+
 /// Carries the plan out: removes the cells, merges each group in its first member and puts it on
 /// `targets` (one per group). Use inside a Transaction.
 /// \return the merged vertices that are left

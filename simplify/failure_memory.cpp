@@ -2,33 +2,17 @@
 
 #include <algorithm>
 
+#include "simplify/hash.h"
+
 namespace hexweft {
 namespace {
 
 // What failed so often, each time after others had changed, is let go.
 constexpr int kMostTries = 3;
 
-// FNV-1a.
-class Hash {
- public:
-  void take(int x) { h_ = (h_ ^ static_cast<unsigned>(x)) * 1099511628211ull; }
-  std::size_t value() const { return h_; }
-
- private:
-  std::size_t h_ = 1469598103934665603ull;
-};
-
 std::size_t hash_of_group(const CollapsePlan& plan, int group) {
   Hash h;
   for (VertexHandle v : plan.group(group)) h.take(v.idx);
-  return h.value();
-}
-
-// Of all groups: the two diagonals of a chord remove the same cells.
-std::size_t hash_of(const CollapsePlan& plan, const std::vector<std::size_t>& groups) {
-  Hash h;
-  for (CellHandle c : plan.removed) h.take(c.idx);
-  for (std::size_t g : groups) h.take(static_cast<int>(g ^ g >> 32));
   return h.value();
 }
 
@@ -58,38 +42,34 @@ std::size_t hash_of_surroundings(const HexMesh& mesh, std::span<const VertexHand
 
 }  // namespace
 
-bool FailureMemory::Failure::should_wait(int now, bool patient) const {
-  if (times >= kMostTries) return true;
-  return now - step < (patient ? 1 << 2 * times : 1);
+bool FailureMemory::Waiting::is_over(int now, bool patient) const {
+  return times < kMostTries && now - step >= (patient ? 1 << 2 * times : 1);
 }
 
-void FailureMemory::Failure::again(int now) {
+void FailureMemory::Waiting::again(int now) {
   step = now;
   ++times;
 }
 
-bool FailureMemory::should_wait(const HexMesh& mesh, const CollapsePlan& plan, int step,
-                                bool patient) const {
-  if (failures_.empty()) return false;
-  const std::vector<std::size_t> groups = hashes_of_groups(plan);
-  const auto same = failures_.find(hash_of(plan, groups));
-  if (same != failures_.end() && same->second.should_wait(step, patient)) return true;
-  if (causes_.empty()) return false;
-  const auto holds = [&](const Cause& c) {
-    return c.failure.should_wait(step, patient) &&
-           std::includes(groups.begin(), groups.end(), c.groups.begin(), c.groups.end()) &&
-           hash_of_surroundings(mesh, c.members) == c.surroundings;
-  };
-  return std::any_of(groups.begin(), groups.end(), [&](std::size_t g) {
-    const auto with_group = causes_.find(g);
-    return with_group != causes_.end() &&
-           std::any_of(with_group->second.begin(), with_group->second.end(), holds);
-  });
+bool FailureMemory::should_wait(const CandidateKey& key, int step, bool patient) {
+  const auto known = failures_.find(key.itself);
+  if (known == failures_.end()) return false;
+  Failure& f = known->second;
+  if (!f.waiting.is_over(step, patient)) return true;
+  if (!f.of_connectivity || f.surroundings != key.surroundings) return false;
+  f.waiting.again(step);
+  return true;
 }
 
-void FailureMemory::failed(const HexMesh& mesh, const CollapsePlan& plan,
-                           std::span<const int> cause, int step) {
-  failures_[hash_of(plan, hashes_of_groups(plan))].again(step);
+void FailureMemory::failed(const CandidateKey& key, Refusal refusal, int step) {
+  Failure& f = failures_[key.itself];
+  f.of_connectivity = is_of_connectivity(refusal);
+  f.surroundings = key.surroundings;
+  f.waiting.again(step);
+}
+
+void FailureMemory::failed_at(const HexMesh& mesh, const CollapsePlan& plan,
+                              std::span<const int> cause, int step) {
   if (cause.empty()) return;
   Cause c;
   for (int g : cause) {
@@ -105,9 +85,25 @@ void FailureMemory::failed(const HexMesh& mesh, const CollapsePlan& plan,
   Cause& kept = same != known.end() ? *same : known.emplace_back(std::move(c));
   if (same != known.end() && kept.surroundings != c.surroundings) {
     kept.surroundings = c.surroundings;
-    kept.failure = {};
+    kept.waiting = {};
   }
-  kept.failure.again(step);
+  kept.waiting.again(step);
+}
+
+bool FailureMemory::has_cause(const HexMesh& mesh, const CollapsePlan& plan, int step,
+                              bool patient) const {
+  if (causes_.empty()) return false;
+  const std::vector<std::size_t> groups = hashes_of_groups(plan);
+  const auto holds = [&](const Cause& c) {
+    return !c.waiting.is_over(step, patient) &&
+           std::includes(groups.begin(), groups.end(), c.groups.begin(), c.groups.end()) &&
+           hash_of_surroundings(mesh, c.members) == c.surroundings;
+  };
+  return std::any_of(groups.begin(), groups.end(), [&](std::size_t g) {
+    const auto with_group = causes_.find(g);
+    return with_group != causes_.end() &&
+           std::any_of(with_group->second.begin(), with_group->second.end(), holds);
+  });
 }
 
 void FailureMemory::forget_all() {

@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "simplify/candidate_key.h"
 #include "simplify/collapse_plan.h"
 
 namespace hexweft {
@@ -17,26 +18,38 @@ namespace hexweft {
 /// failure was put down to: a sheet that has changed at its far end fails where it failed before.
 class FailureMemory {
  public:
-  /// \param mesh  as it was when the plan was made
-  bool should_wait(const HexMesh& mesh, const CollapsePlan& plan, int step, bool patient) const;
-  /// \param cause  the groups of the plan round the place where it failed; none: the whole plan
-  void failed(const HexMesh& mesh, const CollapsePlan& plan, std::span<const int> cause, int step);
+  /// Where the connectivity was at fault and still is the same, another failure is taken for granted.
+  bool should_wait(const CandidateKey& key, int step, bool patient);
+  void failed(const CandidateKey& key, Refusal refusal, int step);
+
+  /// \param mesh   as it was when the plan was made
+  /// \param cause  the groups of the plan round the place where it failed
+  void failed_at(const HexMesh& mesh, const CollapsePlan& plan, std::span<const int> cause,
+                 int step);
+  /// Whether the plan has the cause of a failure that waits.
+  bool has_cause(const HexMesh& mesh, const CollapsePlan& plan, int step, bool patient) const;
+
   void forget_all();
 
  private:
-  struct Failure {
+  struct Waiting {
     int step = 0, times = 0;
-    bool should_wait(int now, bool patient) const;
+    bool is_over(int now, bool patient) const;
     void again(int now);
+  };
+  struct Failure {
+    bool of_connectivity = false;
+    std::size_t surroundings = 0;
+    Waiting waiting;
   };
   struct Cause {
     std::vector<std::size_t> groups;    // hashes, ascending
     std::vector<VertexHandle> members;  // of these groups
     std::size_t surroundings;           // hash
-    Failure failure;
+    Waiting waiting;
   };
 
-  std::unordered_map<std::size_t, Failure> failures_;           // by plan
+  std::unordered_map<std::size_t, Failure> failures_;           // by CandidateKey::itself
   std::unordered_map<std::size_t, std::vector<Cause>> causes_;  // by the least of their groups
 };
 

@@ -67,7 +67,7 @@ struct SimplifyOptions {
   ParametrizationOptions parametrization = {.max_iterations = 4,
                                             .surface = {.treatment = SurfaceTreatment::fit}};
 
-  int max_failed_trials = 30;  ///< > 0, stop after so many parametrizations failed in a row
+  int max_failed_trials = 60;  ///< > 0, stop after so many parametrizations failed in a row
   std::optional<double> target_rate = {};     ///< [0, 1], stop at R = 1 - BC / BC_in
   std::optional<int> target_components = {};  ///< > 0, stop at so many
   /// > 0; after so long nothing more is begun, the smoothing at the end neither

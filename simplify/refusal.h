@@ -32,6 +32,13 @@ inline constexpr int kRefusals = static_cast<int>(Refusal::hausdorff) + 1;
 /// Found out by moving vertices: the expensive way.
 constexpr bool is_geometric(Refusal r) { return r >= Refusal::inverted; }
 
+/// Found out from the cells at the vertices that would merge and the features these are on: as long
+/// as the cells are the same there it stays so, as a rule, wherever the vertices move.
+constexpr bool is_of_connectivity(Refusal r) {
+  return r == Refusal::valence || r == Refusal::boundary || r == Refusal::feature ||
+         r == Refusal::degenerate_cell || r == Refusal::vanishing || r == Refusal::topology;
+}
+
 constexpr std::string_view name(Refusal r) {
   constexpr std::array<std::string_view, kRefusals> names = {
       "none",          "valence", "angle",        "boundary",  "feature",  "degenerate_cell",

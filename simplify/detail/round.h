@@ -3,11 +3,11 @@
 #pragma once
 
 #include <algorithm>
-#include <utility>
+#include <span>
 #include <vector>
 
 #include "ovm/transaction.h"
-#include "simplify/collapse_plan.h"
+#include "simplify/candidate_key.h"
 #include "simplify/trial.h"
 
 namespace hexweft::detail {
@@ -17,45 +17,60 @@ namespace hexweft::detail {
 /// changed. Unless it is committed, a round is undone as a whole.
 class Round {
  public:
-  explicit Round(HexMesh& mesh) : mesh_(mesh), change_(mesh), cells_seen_(mesh.cell_slots()) {}
+  /// \param bc  of the mesh; must outlive the collapses
+  Round(HexMesh& mesh, const BaseComplex& bc)
+      : mesh_(mesh), bc_(bc), change_(mesh), cells_seen_(mesh.cell_slots()) {}
 
   bool empty() const { return collapses_.empty(); }
-  const std::vector<CollapsePlan>& collapses() const { return collapses_; }
+  const std::vector<CandidateKey>& collapses() const { return collapses_; }
 
-  /// Whether the cells at the members are those they were when the round began.
+  /// Whether all cells at the vertices of the whole parts are those they were when the round began.
+  bool is_clear_of(std::span<const CandidatePart> parts) const {
+    return empty() || std::none_of(parts.begin(), parts.end(), [&](const CandidatePart& p) {
+             return p.whole && touched_component_[p.component] != 0;
+           });
+  }
+  /// The same of the members, those of layers that go with a chord among them.
   bool is_clear_of(const CollapsePlan& plan) const {
-    return touched_.empty() || std::none_of(plan.members.begin(), plan.members.end(),
-                                            [&](VertexHandle v) { return touched_[v.idx] != 0; });
+    return empty() || std::none_of(plan.members.begin(), plan.members.end(),
+                                   [&](VertexHandle v) { return touched_vertex_[v.idx] != 0; });
   }
 
-  /// \param plan  was carried out, maybe with splits of sheets anywhere
-  void add(CollapsePlan plan) {
-    touched_.resize(mesh_.vertex_slots(), 0);
+  /// \param plan  of the candidate, was carried out, maybe with splits of sheets anywhere
+  void add(const CandidateKey& candidate, const CollapsePlan& plan) {
+    touched_vertex_.resize(mesh_.vertex_slots(), 0);
     std::vector<VertexHandle> left;
     for (VertexHandle v : plan.members) {
-      touched_[v.idx] = 1;
+      touched_vertex_[v.idx] = 1;
       if (mesh_.is_live(v)) left.push_back(v);
     }
-    for (CellHandle c : cells_around(mesh_, left, 1)) {
-      for (VertexHandle v : mesh_.vertices(c)) touched_[v.idx] = 1;
-    }
+    for (CellHandle c : cells_around(mesh_, left, 1)) touch(c);
     for (; cells_seen_ < mesh_.cell_slots(); ++cells_seen_) {  // of splits
-      const CellHandle c(cells_seen_);
-      if (!mesh_.is_live(c)) continue;
-      for (VertexHandle v : mesh_.vertices(c)) touched_[v.idx] = 1;
+      if (const CellHandle c(cells_seen_); mesh_.is_live(c)) touch(c);
     }
-    collapses_.push_back(std::move(plan));
+    touched_component_.resize(bc_.components.size(), 0);
+    for (std::size_t i = 0; i < bc_.components.size(); ++i) {
+      const auto vertices = bc_.grid(bc_.components[i]);
+      touched_component_[i] = std::any_of(vertices.begin(), vertices.end(),
+                                          [&](VertexHandle v) { return touched_vertex_[v.idx]; });
+    }
+    collapses_.push_back(candidate);
   }
 
   void commit() { change_.commit(); }
   void take_back() { change_.rollback(); }
 
  private:
+  void touch(CellHandle c) {
+    for (VertexHandle v : mesh_.vertices(c)) touched_vertex_[v.idx] = 1;
+  }
+
   HexMesh& mesh_;
+  const BaseComplex& bc_;
   Transaction change_;
-  std::vector<CollapsePlan> collapses_;
-  std::vector<char> touched_;  // by vertex
-  int cells_seen_;             // slots
+  std::vector<CandidateKey> collapses_;
+  std::vector<char> touched_vertex_, touched_component_;
+  int cells_seen_;  // slots
 };
 
 }  // namespace hexweft::detail

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <span>
 
 #include "ovm/dual.h"
@@ -35,6 +36,19 @@ class Run {
     FailureMemory memory = {};
   };
 
+  /// What could be collapsed in the mesh as it is.
+  struct Outlook {
+    CandidateQueues queues;
+    CandidateKeys keys;
+    bool patient;
+  };
+  /// One of these.
+  struct Proposal {
+    std::vector<CandidatePart> parts;
+    std::function<CollapsePlan()> plan;
+    SimplifyProgress step;  ///< but for the plan's width
+  };
+
   // ---- The loop (run.cpp) ----
   void loop();
   void go_on_relaxed();
@@ -56,12 +70,12 @@ class Run {
     return {step_, report_.refined, report_.sheets.accepted, report_.chords.accepted};
   }
   bool collapse_some(std::span<Manner* const> in_turn, bool patient);
-  bool collapse_some(const CandidateQueues& q, Manner& manner, bool patient);
+  bool collapse_some(const Outlook& outlook, Manner& manner);
   int most_in_round() const;
-  void collapse_sheets(const CandidateQueues& q, Manner& manner, bool patient, Round& round);
-  void collapse_chords(const CandidateQueues& q, Manner& manner, bool patient, Round& round);
-  bool attempt(CollapsePlan plan, TrialCounts& counts, const SimplifyProgress& step, Manner& manner,
-               bool patient, Round& round);
+  void collapse_sheets(const Outlook& outlook, Manner& manner, Round& round);
+  void collapse_chords(const Outlook& outlook, Manner& manner, Round& round);
+  bool attempt(const Proposal& proposal, TrialCounts& counts, const Outlook& outlook,
+               Manner& manner, Round& round);
   void accept(const SimplifyProgress& step);
   void relieve();
   void end(Round& round, const Tally& before, Manner& manner);

@@ -1,5 +1,6 @@
 // The collapses of a run.
 #include <algorithm>
+#include <optional>
 
 #include "simplify/detail/round.h"
 #include "simplify/detail/run.h"
@@ -7,8 +8,8 @@
 namespace hexweft::detail {
 namespace {
 
-// More would go by a ranking that is too old.
-constexpr int kMostInRound = 8;
+// More would go by a ranking that is too old, but where there are very many components.
+constexpr int kMostInRound = 8, kComponentsPerCollapse = 1000;
 // Chords take turns with sheets: one at a time, and where there are many components one for so many.
 constexpr int kComponentsPerChord = 500;
 // A round ends where sheets have to be split, at this share of the wanted count of cells.
@@ -29,23 +30,24 @@ bool Run::collapse_some(std::span<Manner* const> in_turn, bool patient) {
     bc_ = extract_base_complex(mesh_);
     bc_of_this_mesh_ = true;
   }
-  const CandidateQueues q = [&] {
+  const Outlook outlook = [&] {
     const auto ranking = timer(Stage::ranking);
-    return make_queues(mesh_, bc_, options_, options_.ranking);
+    return Outlook{make_queues(mesh_, bc_, options_, options_.ranking), CandidateKeys(mesh_, bc_),
+                   patient};
   }();
   context_.labels.reset();
   return std::any_of(in_turn.begin(), in_turn.end(), [&](Manner* manner) {
-    return manner->wanted && (collapse_some(q, *manner, patient) || should_stop());
+    return manner->wanted && (collapse_some(outlook, *manner) || should_stop());
   });
 }
 
 // \return whether the mesh has changed, or was for a while
-bool Run::collapse_some(const CandidateQueues& q, Manner& manner, bool patient) {
+bool Run::collapse_some(const Outlook& outlook, Manner& manner) {
   const Tally before = tally();
-  Round round(mesh_);
+  Round round(mesh_, bc_);
   in_round_ = true;
-  collapse_sheets(q, manner, patient, round);
-  if (round.empty()) collapse_chords(q, manner, patient, round);
+  collapse_sheets(outlook, manner, round);
+  if (round.empty()) collapse_chords(outlook, manner, round);
   if (!round.empty()) end(round, before, manner);
   in_round_ = false;
   return !round.empty();
@@ -56,76 +58,81 @@ int Run::most_in_round() const {
   if (options_.target_rate)
     target = std::max(target, (1 - *options_.target_rate) * report_.before.components);
   const bool is_near = static_cast<double>(bc_.components.size()) < kNearTarget * target;
-  return is_near || last_round_failed_ ? 1 : kMostInRound;
+  if (is_near || last_round_failed_) return 1;
+  return std::max(kMostInRound, static_cast<int>(bc_.components.size()) / kComponentsPerCollapse);
 }
 
-void Run::collapse_sheets(const CandidateQueues& q, Manner& manner, bool patient, Round& round) {
+void Run::collapse_sheets(const Outlook& outlook, Manner& manner, Round& round) {
   const int most = most_in_round();
+  const CandidateQueues& q = outlook.queues;
   for (const Candidate& c : q.sheet_queue) {
     if (should_stop()) return;
     const Sheet& sheet = q.sheets[c.index];
-    CollapsePlan plan = [&] {
-      const auto planning = timer(Stage::planning);
-      return plan_sheet_collapse(mesh_, bc_, sheet);
-    }();
-    const SimplifyProgress step = {.what = StepKind::sheet,
-                                   .kind = name(sheet.kind),
-                                   .width = plan.width,
-                                   .sheet_terms = q.sheet_terms[c.index]};
-    if (!attempt(std::move(plan), report_.sheets, step, manner, patient, round)) continue;
+    const Proposal proposal = {
+        parts_of(sheet),
+        [&] { return plan_sheet_collapse(mesh_, bc_, sheet); },
+        {.what = StepKind::sheet, .kind = name(sheet.kind), .sheet_terms = q.sheet_terms[c.index]}};
+    if (!attempt(proposal, report_.sheets, outlook, manner, round)) continue;
     if (std::ssize(round.collapses()) >= most || is_short_of_cells(kShortOfCells)) return;
   }
 }
 
-void Run::collapse_chords(const CandidateQueues& q, Manner& manner, bool patient, Round& round) {
+void Run::collapse_chords(const Outlook& outlook, Manner& manner, Round& round) {
+  const CandidateQueues& q = outlook.queues;
   const int fair = static_cast<int>(bc_.components.size()) / kComponentsPerChord;
   const int most = std::clamp(fair, 1, most_in_round());
   for (const Candidate& c : q.chord_queue) {
     if (should_stop()) return;
     const Chord& chord = q.chords[c.index];
     const ChordTerms& terms = q.chord_terms[c.index];
-    CollapsePlan plan = [&] {
-      const auto planning = timer(Stage::planning);
-      return plan_chord_collapse(mesh_, bc_, chord, terms.diagonal, q.sheets);
-    }();
-    const SimplifyProgress step = {.what = StepKind::chord,
-                                   .kind = chord.closed ? "closed" : "open",
-                                   .width = plan.width,
-                                   .chord_terms = terms};
-    if (!attempt(std::move(plan), report_.chords, step, manner, patient, round)) continue;
+    const Proposal proposal = {
+        parts_of(mesh_, bc_, chord, terms.diagonal, q.sheets),
+        [&] { return plan_chord_collapse(mesh_, bc_, chord, terms.diagonal, q.sheets); },
+        {.what = StepKind::chord, .kind = chord.closed ? "closed" : "open", .chord_terms = terms}};
+    if (!attempt(proposal, report_.chords, outlook, manner, round)) continue;
     if (std::ssize(round.collapses()) >= most || is_short_of_cells(kShortOfCells)) return;
   }
 }
 
-bool Run::attempt(CollapsePlan plan, TrialCounts& counts, const SimplifyProgress& step,
-                  Manner& manner, bool patient, Round& round) {
-  if (!round.is_clear_of(plan)) return false;
-  const bool waits = [&] {
+bool Run::attempt(const Proposal& proposal, TrialCounts& counts, const Outlook& outlook,
+                  Manner& manner, Round& round) {
+  if (!round.is_clear_of(proposal.parts)) return false;
+  const CandidateKey key = outlook.keys.key(proposal.parts);
+  const auto plan = [&]() -> std::optional<CollapsePlan> {
     const auto planning = timer(Stage::planning);
-    return manner.memory.should_wait(mesh_, plan, step_, patient);
+    if (manner.memory.should_wait(key, step_, outlook.patient)) return std::nullopt;
+    CollapsePlan p = proposal.plan();
+    if (manner.memory.has_cause(mesh_, p, step_, outlook.patient)) return std::nullopt;
+    return p;
   }();
-  if (waits) {
+  if (!plan) {
     ++counts.waited;
     return false;
   }
+  if (!round.is_clear_of(*plan)) return false;
   const double begun = seconds();
   const TrialResult result = [&] {
     const auto trial = timer(Stage::trial);
-    return try_collapse_locally(context_, bc_.graph, plan, manner.options);
+    return try_collapse_locally(context_, bc_.graph, *plan, manner.options);
   }();
   counts.seconds[static_cast<int>(result.refusal)] += seconds() - begun;
   if (!result.accepted()) {
     ++counts.refused[static_cast<int>(result.refusal)];
-    manner.memory.failed(mesh_, plan, result.cause, step_);
+    const auto remember = [&](Manner& failed) {
+      failed.memory.failed(key, result.refusal, step_);
+      failed.memory.failed_at(mesh_, *plan, result.cause, step_);
+    };
+    remember(manner);
     // Careful trials differ from ordinary ones in their floors only.
     const bool has_another_chance = &manner == &careful_ && result.refusal == Refusal::quality;
-    if (&manner == &careful_ && !has_another_chance)
-      ordinary_.memory.failed(mesh_, plan, result.cause, step_);
+    if (&manner == &careful_ && !has_another_chance) remember(ordinary_);
     failed_in_a_row_ += is_geometric(result.refusal) && !has_another_chance && round.empty();
     return false;
   }
   ++counts.accepted;
-  round.add(std::move(plan));
+  round.add(key, *plan);
+  SimplifyProgress step = proposal.step;
+  step.width = plan->width;
   accept(step);
   return true;
 }
@@ -179,9 +186,8 @@ void Run::take_back(Round& round, const Tally& before, Refusal refusal, Manner& 
   };
   refuse(report_.sheets, before.sheets);
   refuse(report_.chords, before.chords);
-  if (round.collapses().size() == 1) {
-    manner.memory.failed(mesh_, round.collapses().front(), {}, step_);
-  }
+  if (round.collapses().size() == 1)
+    manner.memory.failed(round.collapses().front(), refusal, step_);
 }
 
 }  // namespace hexweft::detail

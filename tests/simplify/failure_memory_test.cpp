@@ -16,9 +16,6 @@ class FailureMemoryTest : public testing::Test {
   std::vector<CollapsePlan> plans = all_plans(mesh, bc);
   FailureMemory memory;
 
-  bool waits(const CollapsePlan& plan, int step, bool patient = true) const {
-    return memory.should_wait(mesh, plan, step, patient);
-  }
   // The groups of another plan that the first one has too.
   static std::vector<int> common_groups(const CollapsePlan& a, const CollapsePlan& b) {
     std::vector<int> common;
@@ -33,32 +30,40 @@ class FailureMemoryTest : public testing::Test {
 };
 
 TEST_F(FailureMemoryTest, WaitsLongerAfterEachFailure) {
-  const CollapsePlan &plan = plans[0], &other = plans[1];
-  EXPECT_FALSE(waits(plan, 0));
-  memory.failed(mesh, plan, {}, 0);
-  EXPECT_TRUE(waits(plan, 0, false));
-  EXPECT_TRUE(waits(plan, 3));
-  EXPECT_FALSE(waits(plan, 1, false));
-  EXPECT_FALSE(waits(plan, 4));
-  memory.failed(mesh, plan, {}, 4);
-  EXPECT_TRUE(waits(plan, 19));
-  EXPECT_FALSE(waits(plan, 20));
-  memory.failed(mesh, plan, {}, 20);
-  EXPECT_TRUE(waits(plan, 1000, false)) << "let go after the third failure";
-  EXPECT_FALSE(waits(other, 2));
+  const CandidateKey key = {1, 1}, other = {2, 1};
+  EXPECT_FALSE(memory.should_wait(key, 0, true));
+  memory.failed(key, Refusal::quality, 0);
+  EXPECT_TRUE(memory.should_wait(key, 0, false));
+  EXPECT_TRUE(memory.should_wait(key, 3, true));
+  EXPECT_FALSE(memory.should_wait(key, 1, false));
+  EXPECT_FALSE(memory.should_wait(key, 4, true));
+  memory.failed(key, Refusal::quality, 4);
+  EXPECT_TRUE(memory.should_wait(key, 19, true));
+  EXPECT_FALSE(memory.should_wait(key, 20, true));
+  memory.failed(key, Refusal::quality, 20);
+  EXPECT_TRUE(memory.should_wait(key, 1000, false)) << "let go after the third failure";
+  EXPECT_FALSE(memory.should_wait(other, 2, true));
   memory.forget_all();
-  EXPECT_FALSE(waits(plan, 2, false));
+  EXPECT_FALSE(memory.should_wait(key, 2, false));
 }
 
-TEST_F(FailureMemoryTest, KnowsPlansApart) {
-  // The two diagonals of a chord remove the same cells.
-  for (std::size_t i = 0; i < plans.size(); ++i) {
-    FailureMemory one;
-    one.failed(mesh, plans[i], {}, 0);
-    for (std::size_t j = 0; j < plans.size(); ++j) {
-      EXPECT_EQ(one.should_wait(mesh, plans[j], 0, true), i == j) << i << ' ' << j;
-    }
+TEST_F(FailureMemoryTest, TheSameConnectivityFailsAgainUntried) {
+  const CandidateKey before = {1, 1}, after = {1, 2};
+  for (const Refusal r : {Refusal::valence, Refusal::topology, Refusal::feature}) {
+    SCOPED_TRACE(name(r));
+    memory.forget_all();
+    memory.failed(before, r, 0);
+    EXPECT_TRUE(memory.should_wait(after, 3, true));
+    EXPECT_FALSE(memory.should_wait(after, 4, true));
+    EXPECT_TRUE(memory.should_wait(before, 4, true)) << "the second failure";
+    EXPECT_TRUE(memory.should_wait(after, 19, true));
+    EXPECT_FALSE(memory.should_wait(after, 20, true));
+    EXPECT_TRUE(memory.should_wait(before, 20, true)) << "the third";
+    EXPECT_TRUE(memory.should_wait(after, 1000, false));
   }
+  memory.forget_all();
+  memory.failed(before, Refusal::quality, 0);
+  EXPECT_FALSE(memory.should_wait(before, 4, true));
 }
 
 TEST_F(FailureMemoryTest, ACauseHoldsForEveryPlanThatMakesTheSameMerges) {
@@ -67,14 +72,14 @@ TEST_F(FailureMemoryTest, ACauseHoldsForEveryPlanThatMakesTheSameMerges) {
   // The same collapse, had it reached one cell further: another plan.
   CollapsePlan longer = plan;
   longer.removed.pop_back();
-  ASSERT_FALSE(waits(longer, 0));
-  memory.failed(mesh, plan, cause, 0);
-  EXPECT_TRUE(waits(longer, 3));
-  EXPECT_FALSE(waits(longer, 4));
+  ASSERT_FALSE(memory.has_cause(mesh, longer, 0, true));
+  memory.failed_at(mesh, plan, cause, 0);
+  EXPECT_TRUE(memory.has_cause(mesh, longer, 3, true));
+  EXPECT_FALSE(memory.has_cause(mesh, longer, 4, true));
   for (std::size_t i = 1; i < plans.size(); ++i) {
     const std::vector<int> common = common_groups(plan, plans[i]);
     const bool has_cause = std::includes(common.begin(), common.end(), cause.begin(), cause.end());
-    EXPECT_EQ(waits(plans[i], 1), has_cause) << i;
+    EXPECT_EQ(memory.has_cause(mesh, plans[i], 1, true), has_cause) << i;
   }
 }
 
@@ -82,8 +87,8 @@ TEST_F(FailureMemoryTest, ACauseIsGoneWhenItsSurroundingsHaveChanged) {
   const CollapsePlan& plan = plans[0];
   CollapsePlan longer = plan;
   longer.removed.pop_back();
-  memory.failed(mesh, plan, std::vector<int>{0}, 0);
-  ASSERT_TRUE(waits(longer, 1));
+  memory.failed_at(mesh, plan, std::vector<int>{0}, 0);
+  ASSERT_TRUE(memory.has_cause(mesh, longer, 1, true));
   // A cell beside a vertex of the cause goes and comes back as another.
   const VertexHandle v = plan.group(0)[0];
   const CellHandle cell = *mesh.cells(v).begin();
@@ -92,7 +97,7 @@ TEST_F(FailureMemoryTest, ACauseIsGoneWhenItsSurroundingsHaveChanged) {
   std::copy(vertices.begin(), vertices.end(), corners.begin());
   mesh.delete_cell(cell);
   mesh.add_cell(corners);
-  EXPECT_FALSE(waits(longer, 1));
+  EXPECT_FALSE(memory.has_cause(mesh, longer, 1, true));
 }
 
 }  // namespace

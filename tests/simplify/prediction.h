@@ -10,6 +10,7 @@
 #include "ovm/topology_check.h"
 #include "ovm/topology_summary.h"
 #include "ovm/transaction.h"
+#include "simplify/candidate_key.h"
 #include "simplify/plan_check.h"
 #include "tests/ovm/mesh_dump.h"
 
@@ -43,20 +44,59 @@ inline std::map<VertexPair, EdgeFacts> facts(const HexMesh& mesh,
   return result;
 }
 
+struct PlannedCandidate {
+  std::vector<CandidatePart> parts;
+  CollapsePlan plan;
+};
+
 /// All sheets, and every `step`-th chord along both diagonals.
-inline std::vector<CollapsePlan> all_plans(const HexMesh& mesh, const BaseComplex& bc,
-                                           std::size_t step = 1) {
-  std::vector<CollapsePlan> plans;
+inline std::vector<PlannedCandidate> all_candidates(const HexMesh& mesh, const BaseComplex& bc,
+                                                    std::size_t step = 1) {
+  std::vector<PlannedCandidate> all;
   const std::vector<Sheet> sheets = extract_sheets(bc);
-  for (const Sheet& s : sheets) plans.push_back(plan_sheet_collapse(mesh, bc, s));
+  for (const Sheet& s : sheets) all.push_back({parts_of(s), plan_sheet_collapse(mesh, bc, s)});
   const std::vector<Chord> chords = extract_chords(bc);
   for (std::size_t i = 0; i < chords.size(); i += step) {
     if (can_plan(bc, chords[i], sheets) != Refusal::none) continue;
     for (Diagonal d : {Diagonal::first, Diagonal::second}) {
-      plans.push_back(plan_chord_collapse(mesh, bc, chords[i], d, sheets));
+      all.push_back({parts_of(mesh, bc, chords[i], d, sheets),
+                     plan_chord_collapse(mesh, bc, chords[i], d, sheets)});
     }
   }
+  return all;
+}
+
+inline std::vector<CollapsePlan> all_plans(const HexMesh& mesh, const BaseComplex& bc,
+                                           std::size_t step = 1) {
+  std::vector<CollapsePlan> plans;
+  for (PlannedCandidate& c : all_candidates(mesh, bc, step)) plans.push_back(std::move(c.plan));
   return plans;
+}
+
+inline std::vector<VertexHandle> vertices_of_removed(const HexMesh& mesh,
+                                                     const CollapsePlan& plan) {
+  std::vector<VertexHandle> all;
+  for (CellHandle c : plan.removed) {
+    for (VertexHandle v : mesh.vertices(c)) all.push_back(v);
+  }
+  return all;
+}
+
+/// Whether the cells at the vertices are, and have the vertices, that they were and had.
+inline bool is_as_before(const HexMesh& before, const HexMesh& mesh,
+                         std::span<const VertexHandle> vertices) {
+  return std::all_of(vertices.begin(), vertices.end(), [&](VertexHandle v) {
+    if (!mesh.is_live(v)) return false;
+    std::vector<CellHandle> a, b;
+    for (CellHandle c : before.cells(v)) a.push_back(c);
+    for (CellHandle c : mesh.cells(v)) b.push_back(c);
+    std::sort(a.begin(), a.end());
+    std::sort(b.begin(), b.end());
+    return a == b && std::all_of(a.begin(), a.end(), [&](CellHandle c) {
+             const auto x = before.vertices(c), y = mesh.vertices(c);
+             return std::equal(x.begin(), x.end(), y.begin(), y.end());
+           });
+  });
 }
 
 /// What became of the plans of a mesh.

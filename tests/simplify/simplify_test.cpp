@@ -12,13 +12,6 @@
 namespace hexweft {
 namespace {
 
-HexMesh make_grid_with_random_sheets(int n, unsigned seed) {
-  HexMesh mesh = make_grid({5, 5, 5});
-  EXPECT_EQ(insert_random_sheets(mesh, n, seed), n);
-  mesh.collect_garbage();
-  return mesh;
-}
-
 class RandomSheet : public testing::TestWithParam<unsigned> {};
 INSTANTIATE_TEST_SUITE_P(Simplify, RandomSheet, testing::Range(1u, 11u));
 

@@ -16,6 +16,13 @@
 
 namespace hexweft {
 
+inline HexMesh make_grid_with_random_sheets(int n, unsigned seed) {
+  HexMesh mesh = make_grid({5, 5, 5});
+  EXPECT_EQ(insert_random_sheets(mesh, n, seed), n);
+  mesh.collect_garbage();
+  return mesh;
+}
+
 /// Quadrilaterals in the plane, swept up by `n_layers` unit layers.
 inline HexMesh extrude(const std::vector<std::array<double, 2>>& points,
                        const std::vector<std::array<int, 4>>& quads, int n_layers = 1) {

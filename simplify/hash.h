@@ -1,0 +1,28 @@
+/// \file
+/// Hashes of what is made of handles, to know it again.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace hexweft {
+
+/// Of a sequence: FNV-1a, a number at a time.
+class Hash {
+ public:
+  void take(int x) { h_ = (h_ ^ static_cast<unsigned>(x)) * 1099511628211ull; }
+  void take(std::size_t x) { h_ = (h_ ^ x) * 1099511628211ull; }
+  std::size_t value() const { return h_; }
+
+ private:
+  std::uint64_t h_ = 1469598103934665603ull;
+};
+
+/// The finalizer of SplitMix64: of hashes that went through it the sum is one of their set.
+constexpr std::size_t mixed(std::uint64_t h) {
+  h = (h ^ h >> 30) * 0xbf58476d1ce4e5b9ull;
+  h = (h ^ h >> 27) * 0x94d049bb133111ebull;
+  return h ^ h >> 31;
+}
+
+}  // namespace hexweft
