@@ -16,13 +16,6 @@ std::size_t hash_of(Fold fold, int axis, std::size_t which = 0) {
   return h.value();
 }
 
-std::size_t hash_of_cell(const HexMesh& mesh, CellHandle c) {
-  Hash h;
-  h.take(c.idx);
-  for (VertexHandle v : mesh.vertices(c)) h.take(v.idx);
-  return mixed(h.value());
-}
-
 // By vertex, of the cells at it in any order.
 std::vector<std::size_t> hashes_of_stars(const HexMesh& mesh) {
   std::vector<std::size_t> stars(mesh.vertex_slots(), 0);

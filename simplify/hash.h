@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "ovm/hex_mesh.h"
+
 namespace hexweft {
 
 /// Of a sequence: FNV-1a, a number at a time.
@@ -23,6 +25,14 @@ constexpr std::size_t mixed(std::uint64_t h) {
   h = (h ^ h >> 30) * 0xbf58476d1ce4e5b9ull;
   h = (h ^ h >> 27) * 0x94d049bb133111ebull;
   return h ^ h >> 31;
+}
+
+/// Of its handle and its vertices, mixed. An edit makes new cells or takes some away.
+inline std::size_t hash_of_cell(const HexMesh& mesh, CellHandle c) {
+  Hash h;
+  h.take(c.idx);
+  for (VertexHandle v : mesh.vertices(c)) h.take(v.idx);
+  return mixed(h.value());
 }
 
 }  // namespace hexweft

@@ -116,10 +116,7 @@ bool Run::is_stuck() {
 }
 
 bool Run::relax_mesh() {
-  const bool relaxed = [&] {
-    const auto relief = timer(Stage::relief);
-    return relax_all(context_, options_);
-  }();
+  const bool relaxed = timed(Stage::relief, [&] { return relax_all(context_, options_); });
   if (relaxed) observe({.what = StepKind::relief});
   record();
   return relaxed;

@@ -101,6 +101,11 @@ class Run {
   void smooth_all();
   void measure_output(bool smoothed);
   StageTimer timer(Stage stage) { return {&clock_, stage}; }
+  template <typename Work>
+  auto timed(Stage stage, Work&& work) {
+    const StageTimer t = timer(stage);
+    return work();
+  }
 
   HexMesh& mesh_;
   const SimplifyOptions& options_;

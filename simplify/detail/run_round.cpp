@@ -1,6 +1,5 @@
 // The collapses of a run.
 #include <algorithm>
-#include <optional>
 
 #include "simplify/detail/round.h"
 #include "simplify/detail/run.h"
@@ -26,15 +25,13 @@ constexpr double kVerifyEvery = 0.5;
 // \return whether the loop should go on from the start
 bool Run::collapse_some(std::span<Manner* const> in_turn, bool patient) {
   if (!bc_of_this_mesh_) {
-    const auto extracting = timer(Stage::base_complex);
-    bc_ = extract_base_complex(mesh_);
+    bc_ = timed(Stage::base_complex, [&] { return extract_base_complex(mesh_); });
     bc_of_this_mesh_ = true;
   }
-  const Outlook outlook = [&] {
-    const auto ranking = timer(Stage::ranking);
+  const Outlook outlook = timed(Stage::ranking, [&] {
     return Outlook{make_queues(mesh_, bc_, options_, options_.ranking), CandidateKeys(mesh_, bc_),
                    patient};
-  }();
+  });
   context_.labels.reset();
   return std::any_of(in_turn.begin(), in_turn.end(), [&](Manner* manner) {
     return manner->wanted && (collapse_some(outlook, *manner) || should_stop());
@@ -85,8 +82,9 @@ void Run::collapse_chords(const Outlook& outlook, Manner& manner, Round& round) 
     if (should_stop()) return;
     const Chord& chord = q.chords[c.index];
     const ChordTerms& terms = q.chord_terms[c.index];
+    const auto find_parts = [&] { return parts_of(mesh_, bc_, chord, terms.diagonal, q.sheets); };
     const Proposal proposal = {
-        parts_of(mesh_, bc_, chord, terms.diagonal, q.sheets),
+        timed(Stage::planning, find_parts),
         [&] { return plan_chord_collapse(mesh_, bc_, chord, terms.diagonal, q.sheets); },
         {.what = StepKind::chord, .kind = chord.closed ? "closed" : "open", .chord_terms = terms}};
     if (!attempt(proposal, report_.chords, outlook, manner, round)) continue;
@@ -98,29 +96,29 @@ bool Run::attempt(const Proposal& proposal, TrialCounts& counts, const Outlook& 
                   Manner& manner, Round& round) {
   if (!round.is_clear_of(proposal.parts)) return false;
   const CandidateKey key = outlook.keys.key(proposal.parts);
-  const auto plan = [&]() -> std::optional<CollapsePlan> {
-    const auto planning = timer(Stage::planning);
-    if (manner.memory.should_wait(key, step_, outlook.patient)) return std::nullopt;
-    CollapsePlan p = proposal.plan();
-    if (manner.memory.has_cause(mesh_, p, step_, outlook.patient)) return std::nullopt;
-    return p;
-  }();
-  if (!plan) {
+  if (manner.memory.should_wait(key, step_, outlook.patient)) {
     ++counts.waited;
     return false;
   }
-  if (!round.is_clear_of(*plan)) return false;
+  const CollapsePlan plan = timed(Stage::planning, proposal.plan);
+  if (!round.is_clear_of(plan)) return false;
+  const bool has_cause = timed(Stage::planning, [&] {
+    return manner.memory.has_cause(mesh_, plan, step_, outlook.patient);
+  });
+  if (has_cause) {
+    ++counts.waited;
+    return false;
+  }
   const double begun = seconds();
-  const TrialResult result = [&] {
-    const auto trial = timer(Stage::trial);
-    return try_collapse_locally(context_, bc_.graph, *plan, manner.options);
-  }();
+  const TrialResult result = timed(Stage::trial, [&] {
+    return try_collapse_locally(context_, bc_.graph, plan, manner.options);
+  });
   counts.seconds[static_cast<int>(result.refusal)] += seconds() - begun;
   if (!result.accepted()) {
     ++counts.refused[static_cast<int>(result.refusal)];
     const auto remember = [&](Manner& failed) {
       failed.memory.failed(key, result.refusal, step_);
-      failed.memory.failed_at(mesh_, *plan, result.cause, step_);
+      failed.memory.failed_at(mesh_, plan, result.cause, step_);
     };
     remember(manner);
     // Careful trials differ from ordinary ones in their floors only.
@@ -130,9 +128,9 @@ bool Run::attempt(const Proposal& proposal, TrialCounts& counts, const Outlook& 
     return false;
   }
   ++counts.accepted;
-  round.add(key, *plan);
+  round.add(key, plan);
   SimplifyProgress step = proposal.step;
-  step.width = plan->width;
+  step.width = plan.width;
   accept(step);
   return true;
 }
@@ -146,11 +144,8 @@ void Run::accept(const SimplifyProgress& step) {
 }
 
 void Run::relieve() {
-  const bool relieved = [&] {
-    const auto relief = timer(Stage::relief);
-    return relieve_farthest(context_, options_);
-  }();
-  if (relieved) observe({.what = StepKind::relief});
+  if (timed(Stage::relief, [&] { return relieve_farthest(context_, options_); }))
+    observe({.what = StepKind::relief});
 }
 
 // Splits what has to be split, then takes the look at the whole mesh that the trials did without.

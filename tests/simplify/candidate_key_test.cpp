@@ -7,8 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include "ovm/edit/split_sheet.h"
-#include "tests/mesh_families.h"
 #include "tests/simplify/prediction.h"
 #include "tests/simplify/test_meshes.h"
 
@@ -17,11 +15,6 @@ namespace {
 
 bool same_plan(const CollapsePlan& a, const CollapsePlan& b) {
   return a.removed == b.removed && a.members == b.members && a.group_begin == b.group_begin;
-}
-
-bool is_whole(const PlannedCandidate& c) {
-  return std::all_of(c.parts.begin(), c.parts.end(),
-                     [](const CandidatePart& p) { return p.whole; });
 }
 
 std::vector<HexMesh> make_some_meshes() {

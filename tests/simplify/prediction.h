@@ -49,6 +49,11 @@ struct PlannedCandidate {
   CollapsePlan plan;
 };
 
+inline bool is_whole(const PlannedCandidate& c) {
+  return std::all_of(c.parts.begin(), c.parts.end(),
+                     [](const CandidatePart& p) { return p.whole; });
+}
+
 /// All sheets, and every `step`-th chord along both diagonals.
 inline std::vector<PlannedCandidate> all_candidates(const HexMesh& mesh, const BaseComplex& bc,
                                                     std::size_t step = 1) {

@@ -18,8 +18,7 @@ struct Seen {
   void look_at(const Round& round, const HexMesh& before, const HexMesh& now,
                const std::vector<PlannedCandidate>& candidates) {
     for (const PlannedCandidate& c : candidates) {
-      const bool whole = std::all_of(c.parts.begin(), c.parts.end(),
-                                     [](const CandidatePart& p) { return p.whole; });
+      const bool whole = is_whole(c);
       if (round.is_clear_of(c.parts) && round.is_clear_of(c.plan)) {
         ++clear;
         EXPECT_TRUE(is_as_before(before, now, c.plan.members));
