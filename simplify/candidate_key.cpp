@@ -6,7 +6,7 @@
 namespace hexweft {
 namespace {
 
-enum class Fold { across, diagonal, layers };
+enum class Fold { across, diagonal, layers, peeled };
 
 std::size_t hash_of(Fold fold, int axis, std::size_t which = 0) {
   Hash h;
@@ -33,6 +33,13 @@ std::vector<CandidatePart> parts_of(const Sheet& sheet) {
   for (const Crossing& x : sheet.crossings) {
     parts.push_back({x.component, hash_of(Fold::across, x.axis), true});
   }
+  return parts;
+}
+
+std::vector<CandidatePart> parts_of(const Peel& peel) {
+  std::vector<CandidatePart> parts;
+  for (const PeeledComponent& p : peel.components)
+    parts.push_back({p.component, hash_of(Fold::peeled, p.side), true});
   return parts;
 }
 

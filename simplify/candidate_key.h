@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "simplify/chord.h"
+#include "simplify/peel.h"
 #include "simplify/sheet.h"
 
 namespace hexweft {
@@ -19,10 +20,12 @@ namespace hexweft {
 /// A component that a collapse changes.
 struct CandidatePart {
   int component;
-  std::size_t way;  ///< hash: across which axis, along which diagonal or by which layers it folds
+  std::size_t way;  ///< hash: across which axis, along which diagonal or by which layers it folds,
+                    ///< from which side it is peeled
   bool whole;       ///< all of it goes, not some layers
 };
 std::vector<CandidatePart> parts_of(const Sheet& sheet);
+std::vector<CandidatePart> parts_of(const Peel& peel);
 /// \param sheets  all of this base complex
 /// \pre can_plan(chord) is Refusal::none
 std::vector<CandidatePart> parts_of(const HexMesh& mesh, const BaseComplex& bc, const Chord& chord,

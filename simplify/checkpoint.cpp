@@ -84,6 +84,7 @@ Json to_json(const RunState& s) {
           {"distance_share", s.distance_share},
           {"sheets", to_json(s.sheets)},
           {"chords", to_json(s.chords)},
+          {"peels", to_json(s.peels)},
           {"refined", s.refined},
           {"refinement_failed", s.refinement_failed},
           {"seconds", s.seconds},
@@ -98,6 +99,7 @@ RunState run_state(const Json& j) {
     s.distance_share = j.at("distance_share").get<double>();
     s.sheets = trial_counts(j.at("sheets"));
     s.chords = trial_counts(j.at("chords"));
+    s.peels = trial_counts(j.at("peels"));
     s.refined = j.at("refined").get<int>();
     s.refinement_failed = j.at("refinement_failed").get<int>();
     s.seconds = j.at("seconds").get<double>();
@@ -130,6 +132,7 @@ Json lasting_options(const SimplifyOptions& o) {
   return {{"ranking", name(o.ranking)},
           {"weights", to_json(o.weights)},
           {"chords", o.chords},
+          {"peels", o.peels},
           {"hausdorff_limit_rel", o.hausdorff_limit_rel},
           {"min_scaled_jacobian", o.min_scaled_jacobian},
           {"mean_scaled_jacobian", o.mean_scaled_jacobian},

@@ -29,7 +29,7 @@ struct RunState {
   int failed_in_a_row = 0;
   double distance_share =
       1;  ///< (0, 1] of the Hausdorff limit, which the loop keeps at its sampling
-  TrialCounts sheets, chords;
+  TrialCounts sheets, chords, peels;
   int refined = 0, refinement_failed = 0;
   double seconds = 0;
   Profile profile;

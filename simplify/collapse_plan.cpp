@@ -5,55 +5,11 @@
 #include <numeric>
 #include <optional>
 
-#include "simplify/disjoint_sets.h"
+#include "simplify/detail/plan_builder.h"
 
 namespace hexweft {
-namespace {
 
-// Collects the classes of vertices and the cells of a plan.
-class PlanBuilder {
- public:
-  explicit PlanBuilder(const HexMesh& mesh) : local_(mesh.vertex_slots(), -1) {}
-
-  void join(VertexHandle a, VertexHandle b) { sets_.join(local(a), local(b)); }
-  void remove(std::span<const CellHandle> cells) {
-    plan_.removed.insert(plan_.removed.end(), cells.begin(), cells.end());
-  }
-
-  CollapsePlan finish(int width) {
-    std::sort(plan_.removed.begin(), plan_.removed.end());
-    plan_.removed.erase(std::unique(plan_.removed.begin(), plan_.removed.end()),
-                        plan_.removed.end());
-    std::vector<std::pair<int, VertexHandle>> by_class;
-    for (int i = 0; i < sets_.size(); ++i) by_class.emplace_back(sets_.find(i), vertices_[i]);
-    std::sort(by_class.begin(), by_class.end());
-    for (std::size_t i = 0; i < by_class.size(); ++i) {
-      if (i > 0 && by_class[i].first != by_class[i - 1].first) close_group();
-      plan_.members.push_back(by_class[i].second);
-    }
-    if (!plan_.members.empty()) close_group();
-    plan_.width = width;
-    return std::move(plan_);
-  }
-
- private:
-  int local(VertexHandle v) {
-    int& id = local_[v.idx];
-    if (id < 0) {
-      id = sets_.add();
-      vertices_.push_back(v);
-    }
-    return id;
-  }
-  void close_group() { plan_.group_begin.push_back(static_cast<int>(plan_.members.size())); }
-
-  std::vector<int> local_;  // by vertex handle
-  std::vector<VertexHandle> vertices_;
-  DisjointSets sets_;
-  CollapsePlan plan_;
-};
-
-}  // namespace
+using detail::PlanBuilder;
 
 CollapsePlan plan_sheet_collapse(const HexMesh& mesh, const BaseComplex& bc, const Sheet& sheet) {
   PlanBuilder builder(mesh);
@@ -267,6 +223,7 @@ std::vector<VertexHandle> apply_plan(HexMesh& mesh, const CollapsePlan& plan,
 
 std::vector<Eigen::Vector3d> default_targets(const HexMesh& mesh, const SingularityGraph& graph,
                                              const CollapsePlan& plan) {
+  if (!plan.places.empty()) return plan.places;
   std::vector<Eigen::Vector3d> targets(plan.n_groups());
   for (int g = 0; g < plan.n_groups(); ++g) {
     Eigen::Vector3d all = Eigen::Vector3d::Zero(), boundary = all;

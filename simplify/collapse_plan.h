@@ -18,6 +18,10 @@ struct CollapsePlan {
   std::vector<int> group_begin = {0};  ///< group i is members[group_begin[i] .. group_begin[i + 1])
   /// How many layers of cells fold together: the width of the sheet, the side of the chord.
   int width = 0;
+  /// The cells are taken off the boundary instead of being folded up: what lay under them is on the
+  /// boundary then. Groups may be of a single vertex.
+  bool peels = false;
+  std::vector<Eigen::Vector3d> places = {};  ///< where the groups go; empty: to default_targets()
 
   int n_groups() const { return static_cast<int>(group_begin.size()) - 1; }
   std::span<const VertexHandle> group(int i) const {
@@ -52,7 +56,7 @@ Shortening find_shortening(const HexMesh& mesh, const BaseComplex& bc, const Cho
 std::vector<VertexHandle> apply_plan(HexMesh& mesh, const CollapsePlan& plan,
                                      std::span<const Eigen::Vector3d> targets);
 
-/// Where the groups go: the mean of the members on the boundary, of all if none is.
+/// Where the groups go: to the plan's places, if it has any; else the mean of the members on the boundary, of all if none is.
 std::vector<Eigen::Vector3d> default_targets(const HexMesh& mesh, const SingularityGraph& graph,
                                              const CollapsePlan& plan);
 

@@ -1,5 +1,7 @@
 #include "simplify/feature_targets.h"
 
+#include <algorithm>
+
 namespace hexweft {
 namespace {
 
@@ -47,6 +49,22 @@ std::optional<std::vector<Eigen::Vector3d>> feature_targets(const HexMesh& mesh,
     }
   }
   return targets;
+}
+
+std::vector<char> base_edges_on_features(const BaseComplex& bc,
+                                         std::span<const FeatureLabel> labels) {
+  const auto off_line = [&](VertexHandle a, VertexHandle b) {
+    const FeatureLabel &x = labels[a.idx], &y = labels[b.idx];
+    const bool either_is_corner = x.is_corner() || y.is_corner();
+    return !x.is_any() || !y.is_any() || (!either_is_corner && x.line != y.line);
+  };
+  std::vector<char> result(bc.edges.size(), 0);
+  for (std::size_t i = 0; i < bc.edges.size(); ++i) {
+    const auto chain = bc.chain(bc.edges[i]);
+    result[i] = bc.edges[i].boundary &&
+                std::adjacent_find(chain.begin(), chain.end(), off_line) == chain.end();
+  }
+  return result;
 }
 
 }  // namespace hexweft

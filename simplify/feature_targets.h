@@ -1,5 +1,6 @@
 /// \file
-/// Where the merged vertices of a collapse go on a surface with sharp features.
+/// What sharp features of the surface mean to a collapse: where merged vertices go, which base edges
+/// are on them.
 #pragma once
 
 #include <optional>
@@ -23,5 +24,10 @@ std::optional<std::vector<Eigen::Vector3d>> feature_targets(const HexMesh& mesh,
                                                             const CollapsePlan& plan,
                                                             std::span<const FeatureLabel> labels,
                                                             const FeatureCurves& curves);
+
+/// By base edge, whether it runs along a feature line.
+/// \param labels  by vertex handle; feature_of()
+std::vector<char> base_edges_on_features(const BaseComplex& bc,
+                                         std::span<const FeatureLabel> labels);
 
 }  // namespace hexweft

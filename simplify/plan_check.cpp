@@ -87,7 +87,8 @@ PredictedEdge survivor(const HexMesh& mesh, const SingularityGraph& graph, const
   }
   const int valence = graph.edge_valence[e.idx];
   const int error = std::abs(valence - graph.regular_valence(e));
-  return {a, b, surviving, graph.boundary_edge[e.idx] != 0, 1, error, valence, cell};
+  const bool exposed = m.plan.peels && surviving < valence;
+  return {a, b, surviving, exposed || graph.boundary_edge[e.idx], 1, error, valence, cell};
 }
 
 void take_up(PredictedEdge& merged, const PredictedEdge& e) {
@@ -122,6 +123,7 @@ bool for_each_predicted(const HexMesh& mesh, const SingularityGraph& graph, cons
       for (++i; i < around.size() && around[i].first == around[i - 1].first; ++i) {
         take_up(merged, survivor(mesh, graph, m, around[i].second, a, b));
       }
+      if (merged.valence == 0 && m.plan.peels) continue;
       if (!take(merged)) return false;
     }
   }

@@ -15,18 +15,22 @@ enum class StepKind {
   start,       ///< nothing done yet
   sheet,       ///< a sheet was collapsed
   chord,       ///< a chord was collapsed
+  peel,        ///< a sheet was taken off a face of the surface
   refinement,  ///< a sheet was split
   relief,      ///< the place farthest from the surface, or the whole mesh, was relaxed
   smoothing    ///< the whole mesh was smoothed; the last one
 };
 std::string_view name(StepKind kind);
-constexpr bool is_collapse(StepKind k) { return k == StepKind::sheet || k == StepKind::chord; }
+constexpr bool is_collapse(StepKind k) {
+  return k == StepKind::sheet || k == StepKind::chord || k == StepKind::peel;
+}
 
 /// A change of the mesh that was accepted, and the mesh after it.
 struct SimplifyProgress {
   StepKind what = StepKind::start;
-  std::string_view kind = {};  ///< of a sheet: name(SheetKind); of a chord: open or closed
-  int width = 0;               ///< of a sheet or chord: layers of cells that folded together
+  std::string_view kind = {};  ///< of a sheet or a peel's sheet: name(SheetKind); of a chord: open
+                               ///< or closed
+  int width = 0;               ///< of a collapse: layers of cells that folded together or went
   std::optional<SheetTerms> sheet_terms = {};  ///< of a sheet, before it went
   std::optional<ChordTerms> chord_terms = {};  ///< of a chord, before it went
 

@@ -11,10 +11,14 @@ namespace {
 template <class Ranked>
 void sort_by_cost(std::vector<Ranked>& list, Ranking ranking) {
   std::stable_sort(list.begin(), list.end(), [&](const Ranked& a, const Ranked& b) {
-    const bool a_waits = a.refusal != Refusal::none, b_waits = b.refusal != Refusal::none;
-    if (a_waits != b_waits) return b_waits;
     return a.terms.cost(ranking) < b.terms.cost(ranking);
   });
+}
+
+template <class Ranked>
+void put_passing_first(std::vector<Ranked>& list) {
+  std::stable_partition(list.begin(), list.end(),
+                        [](const Ranked& r) { return r.refusal == Refusal::none; });
 }
 
 template <class Ranked>
@@ -24,9 +28,9 @@ int n_passing(const std::vector<Ranked>& list) {
 }
 
 template <class Ranked>
-std::string heading(const std::vector<Ranked>& list, const char* what, Ranking ranking) {
+std::string heading(const std::vector<Ranked>& list, const char* what, std::string_view order) {
   return fmt::format("{} {}, {} of them pass the filters, by {}\n", list.size(), what,
-                     n_passing(list), ranking == Ranking::weighted ? "energy" : "thickness");
+                     n_passing(list), order);
 }
 
 template <class Ranked>
@@ -66,6 +70,12 @@ nlohmann::ordered_json to_json(const RankedChord& c) {
           {"refusal", name(c.refusal)}};
 }
 
+nlohmann::ordered_json to_json(const RankedPeel& p) {
+  return {{"id", p.id},       {"kind", name(p.kind)},
+          {"width", p.width}, {"components", p.components},
+          {"cells", p.cells}, {"refusal", name(p.refusal)}};
+}
+
 RankedSheet report_sheet(const HexMesh& mesh, const BaseComplex& bc, const CandidateQueues& q,
                          int id, const SimplifyOptions& options) {
   const Sheet& s = q.sheets[id];
@@ -95,26 +105,46 @@ RankedChord report_chord(const HexMesh& mesh, const BaseComplex& bc, const Candi
   return r;
 }
 
+RankedPeel report_peel(const HexMesh& mesh, const BaseComplex& bc, const Peel& peel, int id,
+                       const SimplifyOptions& options) {
+  const CollapsePlan plan = plan_peel(mesh, bc, peel);
+  return {id,
+          peel.kind,
+          peel.width,
+          static_cast<int>(peel.components.size()),
+          static_cast<int>(plan.removed.size()),
+          check_plan(mesh, bc.graph, plan, options.valence)};
+}
+
 }  // namespace
 
 RankReport report_ranking(const HexMesh& mesh, const BaseComplex& bc,
-                          const SimplifyOptions& options, Ranking ranking) {
+                          const std::vector<char>& on_feature, const SimplifyOptions& options,
+                          Ranking ranking) {
   validate(options.weights);
   const CandidateQueues q = make_queues(mesh, bc, options, ranking);
-  RankReport report{ranking, {}, {}};
+  RankReport report{ranking, {}, {}, {}};
   for (int i = 0; i < static_cast<int>(q.sheets.size()); ++i) {
     report.sheets.push_back(report_sheet(mesh, bc, q, i, options));
   }
   for (int i = 0; i < static_cast<int>(q.chords.size()); ++i) {
     report.chords.push_back(report_chord(mesh, bc, q, i, options));
   }
+  const std::vector<Peel> peels = extract_peels(bc, q.sheets, on_feature);
+  for (int i = 0; i < static_cast<int>(peels.size()); ++i) {
+    report.peels.push_back(report_peel(mesh, bc, peels[i], i, options));
+  }
   sort_by_cost(report.sheets, ranking);
   sort_by_cost(report.chords, ranking);
+  put_passing_first(report.sheets);
+  put_passing_first(report.chords);
+  put_passing_first(report.peels);
   return report;
 }
 
 std::string RankReport::table(int max_rows) const {
-  std::string s = heading(sheets, "sheets", ranking);
+  const std::string_view order = ranking == Ranking::weighted ? "energy" : "thickness";
+  std::string s = heading(sheets, "sheets", order);
   s += fmt::format("{:>7} {:>8} {:>9} {:>9} {:>9} {:>9} {:>6} {:>7}  {:<12}  {}\n", "sheet",
                    "energy", "valence", "width", "distort.", "thickness", "layers", "cells", "kind",
                    "refusal");
@@ -124,7 +154,7 @@ std::string RankReport::table(int max_rows) const {
                      r.id, r.terms.energy, r.terms.valence, r.terms.width, r.terms.distortion,
                      r.terms.thickness, r.width, r.cells, name(r.kind), state(r.refusal));
   }
-  s += rest(sheets, max_rows) + heading(chords, "chords", ranking);
+  s += rest(sheets, max_rows) + heading(chords, "chords", order);
   s += fmt::format("{:>7} {:>8} {:>9} {:>9} {:>9} {:>9} {:>6} {:>7}  {:<12}  {}\n", "chord",
                    "energy", "valence", "geometry", "deviation", "thickness", "links", "cells",
                    "diagonal", "refusal");
@@ -135,15 +165,25 @@ std::string RankReport::table(int max_rows) const {
                      r.terms.thickness, r.components, r.cells,
                      r.terms.diagonal == Diagonal::first ? "first" : "second", state(r.refusal));
   }
-  return s + rest(chords, max_rows);
+  s += rest(chords, max_rows) + heading(peels, "peels", "components");
+  s += fmt::format("{:>7} {:>10} {:>6} {:>7}  {:<12}  {}\n", "peel", "components", "layers",
+                   "cells", "kind", "refusal");
+  for (int i = 0; i < std::min<int>(max_rows, static_cast<int>(peels.size())); ++i) {
+    const RankedPeel& r = peels[i];
+    s += fmt::format("{:>7} {:>10} {:>6} {:>7}  {:<12}  {}\n", r.id, r.components, r.width, r.cells,
+                     name(r.kind), state(r.refusal));
+  }
+  return s + rest(peels, max_rows);
 }
 
 nlohmann::ordered_json RankReport::json() const {
   nlohmann::ordered_json j = {{"ranking", name(ranking)}};
   j["sheets"] = nlohmann::ordered_json::array();
   j["chords"] = nlohmann::ordered_json::array();
+  j["peels"] = nlohmann::ordered_json::array();
   for (const RankedSheet& s : sheets) j["sheets"].push_back(to_json(s));
   for (const RankedChord& c : chords) j["chords"].push_back(to_json(c));
+  for (const RankedPeel& p : peels) j["peels"].push_back(to_json(p));
   return j;
 }
 

@@ -1,7 +1,9 @@
 /// \file
-/// Every sheet and chord of a mesh with the terms of its ranking, and why it would not be tried.
+/// Every sheet and chord of a mesh with the terms of its ranking, and every peel; and why it would not
+/// be tried.
 ///
-///     const RankReport report = report_ranking(mesh, extract_base_complex(mesh), options);
+///     const auto on_feature = base_edges_on_features(bc, feature_of(surface, mesh));
+///     const RankReport report = report_ranking(mesh, bc, on_feature, options);
 ///     std::cout << report.table(10);
 #pragma once
 
@@ -11,6 +13,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "simplify/candidates.h"
+#include "simplify/peel.h"
 
 namespace hexweft {
 
@@ -32,12 +35,21 @@ struct RankedChord {
   Refusal refusal = Refusal::none;
 };
 
+struct RankedPeel {
+  int id = 0;                        ///< place in extract_peels()
+  SheetKind kind = SheetKind::open;  ///< of its sheet
+  int width = 0, components = 0;
+  int cells = 0;  ///< that would go
+  Refusal refusal = Refusal::none;
+};
+
 /// Those that pass the filters first, each kind in the order of the queues; then the others,
-/// likewise in order of their costs.
+/// likewise in order of their costs. Peels have no cost: those of the most components come first.
 struct RankReport {
   Ranking ranking = Ranking::weighted;
   std::vector<RankedSheet> sheets;
   std::vector<RankedChord> chords;
+  std::vector<RankedPeel> peels;
 
   std::string table(int max_rows) const;  ///< for people, at most so many of each kind
   nlohmann::ordered_json json() const;
@@ -45,7 +57,9 @@ struct RankReport {
 
 /// Refusals are those found before anything is moved: filter_chord() and check_plan(). Writes
 /// nothing. Cost O(#candidates × #vertices).
+/// \param on_feature  by base edge; base_edges_on_features()
 RankReport report_ranking(const HexMesh& mesh, const BaseComplex& bc,
-                          const SimplifyOptions& options, Ranking ranking = Ranking::weighted);
+                          const std::vector<char>& on_feature, const SimplifyOptions& options,
+                          Ranking ranking = Ranking::weighted);
 
 }  // namespace hexweft

@@ -120,7 +120,8 @@ TrialCounts trial_counts(const nlohmann::ordered_json& j) {
 }
 
 std::string SimplifyReport::profile_table() const {
-  return profile.table() + fates("sheets", sheets) + fates("chords", chords);
+  return profile.table() + fates("sheets", sheets) + fates("chords", chords) +
+         fates("peels", peels);
 }
 
 nlohmann::ordered_json SimplifyReport::json() const {
@@ -131,6 +132,7 @@ nlohmann::ordered_json SimplifyReport::json() const {
                               {"stopped", name(stopped)},
                               {"sheets", to_json(sheets)},
                               {"chords", to_json(chords)},
+                              {"peels", to_json(peels)},
                               {"refined", refined},
                               {"refinement_failed", refinement_failed},
                               {"seconds", seconds},

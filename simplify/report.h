@@ -52,7 +52,7 @@ struct SimplifyReport {
   MeshFigures before, after;
   double hausdorff_ratio = 0;  ///< of the output, at full sampling
   StopReason stopped = StopReason::nothing_left;
-  TrialCounts sheets, chords;
+  TrialCounts sheets, chords, peels;
   int refined = 0;            ///< sheets split
   int refinement_failed = 0;  ///< sheets whose split failed, or was undone since it led nowhere
   double seconds = 0;         ///< earlier runs of a resumed one included
@@ -60,6 +60,7 @@ struct SimplifyReport {
   int attempt = 0;            ///< that was taken
   std::vector<AttemptFigures> attempts;  ///< that were made, in order; none where one was asked for
 
+  int collapses() const { return sheets.accepted + chords.accepted + peels.accepted; }
   double rate() const {  ///< R
     return before.components > 0 ? 1 - static_cast<double>(after.components) / before.components
                                  : 0;

@@ -50,8 +50,7 @@ std::optional<std::vector<Eigen::Vector3d>> targets_of(TrialContext& context,
                                                        const CollapsePlan& plan) {
   const FeatureCurves& curves = context.reference.curves();
   if (curves.n_lines() == 0) return default_targets(context.mesh, graph, plan);
-  if (!context.labels) context.labels = feature_of(context.reference, context.mesh);
-  return feature_targets(context.mesh, graph, plan, *context.labels, curves);
+  return feature_targets(context.mesh, graph, plan, context.feature_labels(), curves);
 }
 
 // Of a plan that was carried out: the group that was merged nearest to the place, and those round it.
@@ -111,6 +110,11 @@ TrialResult collapse_and_relax(TrialContext& context, const SingularityGraph& gr
 }
 
 }  // namespace
+
+const std::vector<FeatureLabel>& TrialContext::feature_labels() {
+  if (!labels) labels = feature_of(reference, mesh);
+  return *labels;
+}
 
 void commit(TrialContext& context, Transaction& change) {
   context.distance.commit();

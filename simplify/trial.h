@@ -31,6 +31,7 @@ struct TrialContext {
   /// Features of the mesh's vertices, once they have been asked for. Like the graph that
   /// try_collapse_locally() is given they may be out of date where the mesh has changed since.
   std::optional<std::vector<FeatureLabel>> labels = {};
+  const std::vector<FeatureLabel>& feature_labels();
 };
 
 /// Least and mean scaled Jacobian of some cells.

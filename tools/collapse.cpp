@@ -1,7 +1,9 @@
-// hexweft-collapse: collapses one sheet or chord.
+// hexweft-collapse: collapses one sheet or chord, or takes a sheet off one face of the surface.
 #include <fmt/format.h>
 
 #include "simplify/candidates.h"
+#include "simplify/feature_targets.h"
+#include "simplify/peel.h"
 #include "tools/single_trial.h"
 
 namespace hexweft {
@@ -9,7 +11,7 @@ namespace {
 
 struct Request {
   cli::TrialArguments trial;
-  std::optional<int> sheet, chord;
+  std::optional<int> sheet, chord, peel;
   std::string diagonal;  // empty: the one that the ranking takes
 };
 
@@ -36,23 +38,35 @@ CollapsePlan plan_chord(const HexMesh& mesh, const BaseComplex& bc, const Reques
   return plan_chord_collapse(mesh, bc, chord, diagonal, sheets);
 }
 
-int run(cli::Program& program, const Request& request) {
-  if (request.sheet.has_value() == request.chord.has_value()) {
-    throw InputError("expected one of --sheet and --chord");
+// What was asked for, as people and the JSON report call it.
+std::pair<const char*, int> chosen(const Request& r) {
+  if (r.sheet.has_value() + r.chord.has_value() + r.peel.has_value() != 1) {
+    throw InputError("expected one of --sheet, --chord and --peel");
   }
+  if (r.sheet) return {"sheet", *r.sheet};
+  if (r.chord) return {"chord", *r.chord};
+  return {"peel", *r.peel};
+}
+
+CollapsePlan plan_of(cli::SingleTrial& trial, const BaseComplex& bc, const Request& request) {
+  const HexMesh& mesh = trial.mesh();
+  if (request.chord) return plan_chord(mesh, bc, request);
+  const std::vector<Sheet> sheets = extract_sheets(bc);
+  if (request.sheet) return plan_sheet_collapse(mesh, bc, pick(sheets, *request.sheet, "sheet"));
+  const auto on_feature = base_edges_on_features(bc, trial.context().feature_labels());
+  return plan_peel(mesh, bc, pick(extract_peels(bc, sheets, on_feature), *request.peel, "peel"));
+}
+
+int run(cli::Program& program, const Request& request) {
+  const auto [what, id] = chosen(request);
   cli::SingleTrial trial(program, request.trial);
   const BaseComplex bc = extract_base_complex(trial.mesh());
   if (bc.irregular > 0) {
     throw InputError(fmt::format("{} regions of the base complex are no cuboids", bc.irregular));
   }
-  const CollapsePlan plan =
-      request.sheet
-          ? plan_sheet_collapse(trial.mesh(), bc, pick(extract_sheets(bc), *request.sheet, "sheet"))
-          : plan_chord(trial.mesh(), bc, request);
+  const CollapsePlan plan = plan_of(trial, bc, request);
   const auto before = trial.figures();
   const TrialResult result = try_collapse(trial.context(), bc, plan, request.trial.options);
-  const char* what = request.sheet ? "sheet" : "chord";
-  const int id = request.sheet ? *request.sheet : *request.chord;
   if (!result.accepted()) {
     return program.fail(cli::kFailed, fmt::format("{} {} cannot be collapsed: {}", what, id,
                                                   cli::explain(result.refusal)));
@@ -70,17 +84,20 @@ int run(cli::Program& program, const Request& request) {
 
 int main(int argc, char** argv) {
   using namespace hexweft;
-  cli::Program program(
-      "hexweft-collapse",
-      "Collapses one sheet or chord of the base complex and relaxes the mesh round "
-      "it. Writes nothing where that would leave the mesh invalid or the surface "
-      "too far away.");
+  cli::Program program("hexweft-collapse",
+                       "Collapses one sheet or chord of the base complex, or takes a sheet off one "
+                       "face of the surface, "
+                       "and relaxes the mesh round it. Writes nothing where that would leave the "
+                       "mesh invalid or the surface "
+                       "too far away.");
   Request request;
   CLI::App& app = program.app();
   program.add_input();
   program.add_output();
   app.add_option("--sheet", request.sheet, "Id of a sheet, as hexweft-rank lists it");
   app.add_option("--chord", request.chord, "Id of a chord, likewise");
+  app.add_option("--peel", request.peel,
+                 "Id of a peel, likewise: what lies of a sheet under one face");
   app.add_option("--diagonal", request.diagonal,
                  "Diagonal along which the chord folds: first or second (default: the one that "
                  "leaves the smaller valence error)")

@@ -73,7 +73,7 @@ SimplifyReport Run::run() {
   observe({.what = StepKind::start});
   loop();
   go_on_relaxed();
-  if (n_collapses() == 0 && step_ > 0) give_back_input();
+  if (report_.collapses() == 0 && step_ > 0) give_back_input();
   while (!is_cut_short() && is_short_of_cells(kRefineBelow) && refine(0)) {
   }
   end_with_what_may_be_written();
@@ -86,27 +86,32 @@ SimplifyReport Run::run() {
 }
 
 void Run::loop() {
+  Manner* const in_turn[] = {&careful_, &ordinary_, &bold_};
+  do {
+    collapse_while_possible(in_turn);
+  } while (options_.peels && is_stuck() && peel_some(in_turn));
+}
+
+void Run::collapse_while_possible(std::span<Manner* const> in_turn) {
   // Splitting a sheet comes before a second look at what failed lately: it gives that more room.
   const double long_enough = RefineOptions().min_length_rel;
-  Manner* const in_turn[] = {&careful_, &ordinary_, &bold_};
   refine_while_short();
   while (!should_stop()) {
     if (collapse_some(in_turn, true)) continue;
-    if (!refine(long_enough, kMostCells) && !collapse_some(std::span(in_turn).subspan(1), false))
-      break;
+    if (!refine(long_enough, kMostCells) && !collapse_some(in_turn.subspan(1), false)) break;
   }
 }
 
 // Where nothing goes on any more the whole mesh is relaxed: it gives later trials more distance to spend.
 void Run::go_on_relaxed() {
   constexpr int kMost = 3;
-  for (int i = 0; i < kMost && n_collapses() > 0 && is_stuck() && relax_mesh(); ++i) {
-    const int before = n_collapses();
+  for (int i = 0; i < kMost && report_.collapses() > 0 && is_stuck() && relax_mesh(); ++i) {
+    const int before = report_.collapses();
     forget_failures();
     failed_in_a_row_ = 0;
     report_.stopped = StopReason::nothing_left;
     loop();
-    if (n_collapses() == before) break;
+    if (report_.collapses() == before) break;
   }
 }
 

@@ -10,6 +10,7 @@
 #include "simplify/candidates.h"
 #include "simplify/checkpoint.h"
 #include "simplify/failure_memory.h"
+#include "simplify/peel.h"
 #include "simplify/trial.h"
 
 namespace hexweft::detail {
@@ -36,13 +37,14 @@ class Run {
     FailureMemory memory = {};
   };
 
-  /// What could be collapsed in the mesh as it is.
-  struct Outlook {
-    CandidateQueues queues;
-    CandidateKeys keys;
+  /// One manner's go at the candidates of the mesh as it is.
+  struct Turn {
+    const CandidateKeys& keys;
     bool patient;
+    Manner& manner;
+    Round& round;
   };
-  /// One of these.
+  /// One of the candidates.
   struct Proposal {
     std::vector<CandidatePart> parts;
     std::function<CollapsePlan()> plan;
@@ -51,6 +53,7 @@ class Run {
 
   // ---- The loop (run.cpp) ----
   void loop();
+  void collapse_while_possible(std::span<Manner* const> in_turn);
   void go_on_relaxed();
   bool is_stuck();
   bool relax_mesh();
@@ -60,22 +63,26 @@ class Run {
   bool is_short_of_cells(double share) const;
   bool should_stop();   // for good or for lack of progress
   bool is_cut_short();  // asked to stop, or out of time
-  int n_collapses() const { return report_.sheets.accepted + report_.chords.accepted; }
 
   // ---- A round of it (run_round.cpp) ----
   struct Tally {
-    int step, refined, sheets, chords;
+    int step, refined, sheets, chords, peels;
   };
   Tally tally() const {
-    return {step_, report_.refined, report_.sheets.accepted, report_.chords.accepted};
+    return {step_, report_.refined, report_.sheets.accepted, report_.chords.accepted,
+            report_.peels.accepted};
   }
   bool collapse_some(std::span<Manner* const> in_turn, bool patient);
-  bool collapse_some(const Outlook& outlook, Manner& manner);
+  bool peel_some(std::span<Manner* const> in_turn);
+  void know_base_complex();
+  template <typename Fill>
+  bool any_changes_mesh(std::span<Manner* const> in_turn, const CandidateKeys& keys, bool patient,
+                        Fill&& fill);
   int most_in_round() const;
-  void collapse_sheets(const Outlook& outlook, Manner& manner, Round& round);
-  void collapse_chords(const Outlook& outlook, Manner& manner, Round& round);
-  bool attempt(const Proposal& proposal, TrialCounts& counts, const Outlook& outlook,
-               Manner& manner, Round& round);
+  void collapse_sheets(const CandidateQueues& queues, Turn& turn);
+  void collapse_chords(const CandidateQueues& queues, Turn& turn);
+  void collapse_peels(const std::vector<Peel>& peels, Turn& turn);
+  bool attempt(const Proposal& proposal, TrialCounts& counts, Turn& turn);
   void accept(const SimplifyProgress& step);
   void relieve();
   void end(Round& round, const Tally& before, Manner& manner);

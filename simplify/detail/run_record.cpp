@@ -53,11 +53,12 @@ void Run::go_on_from(const Checkpoint& from) {
   context_.distance_limit = s.distance_share * context_.final_limit;
   report_.sheets = s.sheets;
   report_.chords = s.chords;
+  report_.peels = s.peels;
   report_.refined = s.refined;
   report_.refinement_failed = s.refinement_failed;
   earlier_seconds_ = s.seconds;
   earlier_profile_ = s.profile;
-  if (n_collapses() > 0 && may_be_written()) {
+  if (report_.collapses() > 0 && may_be_written()) {
     verified_ = mesh_;
     verified_components_ = static_cast<int>(bc_.components.size());
   }
@@ -70,6 +71,7 @@ RunState Run::state() {
   s.distance_share = context_.distance_limit / context_.final_limit;
   s.sheets = report_.sheets;
   s.chords = report_.chords;
+  s.peels = report_.peels;
   s.refined = report_.refined;
   s.refinement_failed = report_.refinement_failed;
   s.seconds = earlier_seconds_ + seconds();

@@ -1,8 +1,10 @@
 // The collapses of a run.
 #include <algorithm>
+#include <utility>
 
 #include "simplify/detail/round.h"
 #include "simplify/detail/run.h"
+#include "simplify/feature_targets.h"
 
 namespace hexweft::detail {
 namespace {
@@ -24,30 +26,61 @@ constexpr double kVerifyEvery = 0.5;
 // in one manner the next one has its turn. A patient look leaves out what failed lately.
 // \return whether the loop should go on from the start
 bool Run::collapse_some(std::span<Manner* const> in_turn, bool patient) {
+  know_base_complex();
+  const auto [queues, keys] = timed(Stage::ranking, [&] {
+    return std::pair(make_queues(mesh_, bc_, options_, options_.ranking),
+                     CandidateKeys(mesh_, bc_));
+  });
+  const bool changed = any_changes_mesh(in_turn, keys, patient, [&](Turn& turn) {
+    collapse_sheets(queues, turn);
+    if (turn.round.empty()) collapse_chords(queues, turn);
+  });
+  return changed || should_stop();
+}
+
+// For where nothing else goes on: what peels leave behind is in the way of sheets more often than not.
+// \return whether the loop should go on
+bool Run::peel_some(std::span<Manner* const> in_turn) {
+  const int failed_before = std::exchange(failed_in_a_row_, 0);
+  know_base_complex();
+  const auto [peels, keys] = timed(Stage::ranking, [&] {
+    const auto on_feature = base_edges_on_features(bc_, context_.feature_labels());
+    return std::pair(extract_peels(bc_, extract_sheets(bc_), on_feature),
+                     CandidateKeys(mesh_, bc_));
+  });
+  const bool changed =
+      any_changes_mesh(in_turn, keys, false, [&](Turn& turn) { collapse_peels(peels, turn); });
+  if (changed) {
+    report_.stopped = StopReason::nothing_left;
+  } else {
+    failed_in_a_row_ = failed_before;
+  }
+  return changed;
+}
+
+void Run::know_base_complex() {
   if (!bc_of_this_mesh_) {
     bc_ = timed(Stage::base_complex, [&] { return extract_base_complex(mesh_); });
     bc_of_this_mesh_ = true;
   }
-  const Outlook outlook = timed(Stage::ranking, [&] {
-    return Outlook{make_queues(mesh_, bc_, options_, options_.ranking), CandidateKeys(mesh_, bc_),
-                   patient};
-  });
   context_.labels.reset();
-  return std::any_of(in_turn.begin(), in_turn.end(), [&](Manner* manner) {
-    return manner->wanted && (collapse_some(outlook, *manner) || should_stop());
-  });
 }
 
-// \return whether the mesh has changed, or was for a while
-bool Run::collapse_some(const Outlook& outlook, Manner& manner) {
-  const Tally before = tally();
-  Round round(mesh_, bc_);
-  in_round_ = true;
-  collapse_sheets(outlook, manner, round);
-  if (round.empty()) collapse_chords(outlook, manner, round);
-  if (!round.empty()) end(round, before, manner);
-  in_round_ = false;
-  return !round.empty();
+// \return whether one has, or did for a while
+template <typename Fill>
+bool Run::any_changes_mesh(std::span<Manner* const> in_turn, const CandidateKeys& keys,
+                           bool patient, Fill&& fill) {
+  return std::any_of(in_turn.begin(), in_turn.end(), [&](Manner* manner) {
+    if (!manner->wanted || should_stop()) return false;
+    const Tally before = tally();
+    Round round(mesh_, bc_);
+    Turn turn = {keys, patient, *manner, round};
+    in_round_ = true;
+    fill(turn);
+    if (!round.empty()) end(round, before, *manner);
+    in_round_ = false;
+    return !round.empty();
+  });
 }
 
 int Run::most_in_round() const {
@@ -59,9 +92,8 @@ int Run::most_in_round() const {
   return std::max(kMostInRound, static_cast<int>(bc_.components.size()) / kComponentsPerCollapse);
 }
 
-void Run::collapse_sheets(const Outlook& outlook, Manner& manner, Round& round) {
+void Run::collapse_sheets(const CandidateQueues& q, Turn& turn) {
   const int most = most_in_round();
-  const CandidateQueues& q = outlook.queues;
   for (const Candidate& c : q.sheet_queue) {
     if (should_stop()) return;
     const Sheet& sheet = q.sheets[c.index];
@@ -69,13 +101,12 @@ void Run::collapse_sheets(const Outlook& outlook, Manner& manner, Round& round) 
         parts_of(sheet),
         [&] { return plan_sheet_collapse(mesh_, bc_, sheet); },
         {.what = StepKind::sheet, .kind = name(sheet.kind), .sheet_terms = q.sheet_terms[c.index]}};
-    if (!attempt(proposal, report_.sheets, outlook, manner, round)) continue;
-    if (std::ssize(round.collapses()) >= most || is_short_of_cells(kShortOfCells)) return;
+    if (!attempt(proposal, report_.sheets, turn)) continue;
+    if (std::ssize(turn.round.collapses()) >= most || is_short_of_cells(kShortOfCells)) return;
   }
 }
 
-void Run::collapse_chords(const Outlook& outlook, Manner& manner, Round& round) {
-  const CandidateQueues& q = outlook.queues;
+void Run::collapse_chords(const CandidateQueues& q, Turn& turn) {
   const int fair = static_cast<int>(bc_.components.size()) / kComponentsPerChord;
   const int most = std::clamp(fair, 1, most_in_round());
   for (const Candidate& c : q.chord_queue) {
@@ -87,24 +118,35 @@ void Run::collapse_chords(const Outlook& outlook, Manner& manner, Round& round) 
         timed(Stage::planning, find_parts),
         [&] { return plan_chord_collapse(mesh_, bc_, chord, terms.diagonal, q.sheets); },
         {.what = StepKind::chord, .kind = chord.closed ? "closed" : "open", .chord_terms = terms}};
-    if (!attempt(proposal, report_.chords, outlook, manner, round)) continue;
-    if (std::ssize(round.collapses()) >= most || is_short_of_cells(kShortOfCells)) return;
+    if (!attempt(proposal, report_.chords, turn)) continue;
+    if (std::ssize(turn.round.collapses()) >= most || is_short_of_cells(kShortOfCells)) return;
   }
 }
 
-bool Run::attempt(const Proposal& proposal, TrialCounts& counts, const Outlook& outlook,
-                  Manner& manner, Round& round) {
+void Run::collapse_peels(const std::vector<Peel>& peels, Turn& turn) {
+  const int most = most_in_round();
+  for (const Peel& peel : peels) {
+    if (should_stop()) return;
+    const Proposal proposal = {parts_of(peel),
+                               [&] { return plan_peel(mesh_, bc_, peel); },
+                               {.what = StepKind::peel, .kind = name(peel.kind)}};
+    if (!attempt(proposal, report_.peels, turn)) continue;
+    if (std::ssize(turn.round.collapses()) >= most || is_short_of_cells(kShortOfCells)) return;
+  }
+}
+
+bool Run::attempt(const Proposal& proposal, TrialCounts& counts, Turn& turn) {
+  const auto& [keys, patient, manner, round] = turn;
   if (!round.is_clear_of(proposal.parts)) return false;
-  const CandidateKey key = outlook.keys.key(proposal.parts);
-  if (manner.memory.should_wait(key, step_, outlook.patient)) {
+  const CandidateKey key = keys.key(proposal.parts);
+  if (manner.memory.should_wait(key, step_, patient)) {
     ++counts.waited;
     return false;
   }
   const CollapsePlan plan = timed(Stage::planning, proposal.plan);
   if (!round.is_clear_of(plan)) return false;
-  const bool has_cause = timed(Stage::planning, [&] {
-    return manner.memory.has_cause(mesh_, plan, step_, outlook.patient);
-  });
+  const bool has_cause =
+      timed(Stage::planning, [&] { return manner.memory.has_cause(mesh_, plan, step_, patient); });
   if (has_cause) {
     ++counts.waited;
     return false;
@@ -181,6 +223,7 @@ void Run::take_back(Round& round, const Tally& before, Refusal refusal, Manner& 
   };
   refuse(report_.sheets, before.sheets);
   refuse(report_.chords, before.chords);
+  refuse(report_.peels, before.peels);
   if (round.collapses().size() == 1)
     manner.memory.failed(round.collapses().front(), refusal, step_);
 }

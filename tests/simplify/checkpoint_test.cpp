@@ -98,7 +98,7 @@ TEST(Checkpoint, KeepingThemDoesNotChangeTheRun) {
   simplify(b);
   EXPECT_TRUE(content(a) == content(b));
   EXPECT_GT(kept, 2);
-  EXPECT_LE(kept, report.sheets.accepted + report.chords.accepted + report.refined + 1);
+  EXPECT_LE(kept, report.collapses() + report.refined + 1);
 }
 
 TEST(Checkpoint, OfAFinishedRunEndsAtOnceWithNoMore) {

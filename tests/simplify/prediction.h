@@ -54,7 +54,8 @@ inline bool is_whole(const PlannedCandidate& c) {
                      [](const CandidatePart& p) { return p.whole; });
 }
 
-/// All sheets, and every `step`-th chord along both diagonals.
+/// All sheets, every `step`-th chord along both diagonals, and the peels there are where every other
+/// edge of the base complex counts as a feature.
 inline std::vector<PlannedCandidate> all_candidates(const HexMesh& mesh, const BaseComplex& bc,
                                                     std::size_t step = 1) {
   std::vector<PlannedCandidate> all;
@@ -68,6 +69,10 @@ inline std::vector<PlannedCandidate> all_candidates(const HexMesh& mesh, const B
                      plan_chord_collapse(mesh, bc, chords[i], d, sheets)});
     }
   }
+  std::vector<char> features(bc.edges.size(), 0);
+  for (std::size_t i = 0; i < features.size(); i += 2) features[i] = 1;
+  for (const Peel& p : extract_peels(bc, sheets, features))
+    all.push_back({parts_of(p), plan_peel(mesh, bc, p)});
   return all;
 }
 
@@ -113,8 +118,8 @@ struct PlanTally {
 
 /// Carries a plan out and takes it back.
 inline void try_plan(HexMesh& mesh, const BaseComplex& bc, const CollapsePlan& plan,
-                     PlanTally& tally, bool compare_dump) {
-  if (check_plan(mesh, bc.graph, plan) != Refusal::none) {
+                     PlanTally& tally, bool compare_dump, const ValenceLimits& limits = {}) {
+  if (check_plan(mesh, bc.graph, plan, limits) != Refusal::none) {
     ++tally.refused;
     return;
   }

@@ -6,10 +6,17 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include "simplify/feature_targets.h"
 #include "tests/simplify/test_meshes.h"
 
 namespace hexweft {
 namespace {
+
+RankReport report_of(const HexMesh& mesh, Ranking ranking = Ranking::weighted) {
+  const BaseComplex bc = extract_base_complex(mesh);
+  const auto labels = feature_of(make_reference_surface(mesh), mesh);
+  return report_ranking(mesh, bc, base_edges_on_features(bc, labels), {}, ranking);
+}
 
 template <class Ranked>
 void expect_passing_first_and_sorted(const std::vector<Ranked>& list, Ranking ranking) {
@@ -27,7 +34,7 @@ TEST(RankReport, ListsEverySheetAndChordInOrder) {
   const HexMesh mesh = make_octree_like(Shape::blob, 8, 2);
   const BaseComplex bc = extract_base_complex(mesh);
   for (const Ranking ranking : {Ranking::weighted, Ranking::thickness}) {
-    const RankReport r = report_ranking(mesh, bc, {}, ranking);
+    const RankReport r = report_of(mesh, ranking);
     EXPECT_EQ(r.sheets.size(), extract_sheets(bc).size());
     EXPECT_EQ(r.chords.size(), extract_chords(bc).size());
     expect_passing_first_and_sorted(r.sheets, ranking);
@@ -39,7 +46,7 @@ TEST(RankReport, ListsEverySheetAndChordInOrder) {
 TEST(RankReport, SaysWhyAGridCannotBeCollapsed) {
   // Nothing would be left of a single cell.
   const HexMesh mesh = make_grid({1, 1, 1});
-  const RankReport r = report_ranking(mesh, extract_base_complex(mesh), {});
+  const RankReport r = report_of(mesh);
   ASSERT_EQ(r.sheets.size(), 3u);
   for (const RankedSheet& s : r.sheets) {
     EXPECT_NE(s.refusal, Refusal::none);
@@ -50,7 +57,7 @@ TEST(RankReport, SaysWhyAGridCannotBeCollapsed) {
 
 TEST(RankReport, JsonAndTableSayTheSame) {
   const HexMesh mesh = make_pillowed_grid(3);
-  const RankReport r = report_ranking(mesh, extract_base_complex(mesh), {});
+  const RankReport r = report_of(mesh);
   const auto j = r.json();
   EXPECT_EQ(j["ranking"], "weighted");
   ASSERT_EQ(j["sheets"].size(), r.sheets.size());
@@ -62,6 +69,21 @@ TEST(RankReport, JsonAndTableSayTheSame) {
   const std::string table = r.table(2);
   EXPECT_THAT(table, testing::HasSubstr("10 sheets, "));
   EXPECT_THAT(table, testing::HasSubstr("and 8 more"));
+}
+
+TEST(RankReport, ListsWhatCanBeTakenOffFaces) {
+  const RankReport r = report_of(make_padded_cube(3));
+  const auto j = r.json();
+  ASSERT_EQ(r.peels.size(), 6u);
+  ASSERT_EQ(j["peels"].size(), 6u);
+  for (int i = 0; i < 6; ++i) {
+    EXPECT_EQ(r.peels[i].cells, 9);
+    EXPECT_EQ(r.peels[i].components, 1);
+    EXPECT_EQ(j["peels"][i]["id"], r.peels[i].id);
+    EXPECT_EQ(j["peels"][i]["refusal"], "none");
+  }
+  EXPECT_THAT(r.table(2), testing::AllOf(testing::HasSubstr("6 peels, 6 of them pass"),
+                                         testing::HasSubstr("and 4 more")));
 }
 
 }  // namespace

@@ -36,8 +36,18 @@ HexMesh make_solid(std::string_view name, int resolution) {
 TEST(SimplifySlow, WhatWasCollapsedIsNotLostInTheLastCheck) {
   const HexMesh input = make_solid("oblique-box", 10);
   const SimplifyReport report = simplify_well(input);
-  EXPECT_GT(report.sheets.accepted + report.chords.accepted, 0);
+  EXPECT_GT(report.collapses(), 0);
   EXPECT_LT(report.after.components, report.before.components);
+}
+
+// The sheet under its surface is needed under the slanting faces, but not under the others.
+TEST(SimplifySlow, SheetsAreTakenOffTheFacesThatDoWithout) {
+  const HexMesh input = make_solid("wedge", 16);
+  SimplifyOptions without;
+  without.peels = false;
+  const SimplifyReport kept = simplify_well(input, without), peeled = simplify_well(input);
+  EXPECT_GT(peeled.peels.accepted, 0);
+  EXPECT_LT(peeled.after.components, kept.after.components);
 }
 
 // The same part simplified by each of the options.
@@ -122,7 +132,7 @@ TEST(SimplifySlow, ObserverSeesEveryStateOfTheWay) {
   };
   const SimplifyReport report = simplify(mesh, options);
   expect_good_output(input, mesh, report);
-  EXPECT_EQ(n, report.sheets.accepted + report.chords.accepted);
+  EXPECT_EQ(n, report.collapses());
 }
 
 TEST(SimplifySlow, ManyRandomSheetsAreMostlyRemoved) {

@@ -39,7 +39,7 @@ TEST(Simplify, PillowIsRemoved) {
   const SimplifyReport report = simplify_well(input);
   EXPECT_EQ(report.before.components, 33);
   EXPECT_EQ(report.after.components, 1);
-  EXPECT_GE(report.sheets.accepted + report.chords.accepted, 1);
+  EXPECT_GE(report.collapses(), 1);
 }
 
 // Vertices thrown about, some of them along the surface.
@@ -70,7 +70,7 @@ TEST(Simplify, GridStaysOneComponent) {
   const SimplifyReport report = simplify(mesh);
   expect_good_output(input, mesh, report);
   EXPECT_EQ(report.after.components, 1);
-  EXPECT_EQ(report.sheets.accepted + report.chords.accepted, 0);
+  EXPECT_EQ(report.collapses(), 0);
   EXPECT_EQ(report.rate(), 0);
   EXPECT_EQ(mesh.n_cells(), 24);
 }
@@ -128,7 +128,7 @@ TEST(Simplify, StopFromTheObserverStopsAfterThatStep) {
   const SimplifyReport report = simplify_well(input, options);
   EXPECT_EQ(report.stopped, StopReason::interrupted);
   EXPECT_EQ(calls, 2);
-  EXPECT_EQ(report.sheets.accepted + report.chords.accepted, 2);
+  EXPECT_EQ(report.collapses(), 2);
   EXPECT_LT(report.after.components, report.before.components);
 }
 
@@ -150,7 +150,7 @@ TEST(Simplify, StopsAtTheTargetOfComponents) {
   const SimplifyReport report = simplify(mesh, options);
   expect_good_output(input, mesh, report);
   EXPECT_EQ(report.stopped, StopReason::target_reached);
-  EXPECT_EQ(report.sheets.accepted + report.chords.accepted, 1);
+  EXPECT_EQ(report.collapses(), 1);
 
   options.target_components = n;  // met by the input
   mesh = input;
@@ -163,7 +163,7 @@ TEST(Simplify, StopsWhenTheTimeIsOver) {
   options.max_seconds = 1e-9;
   const SimplifyReport report = simplify_well(input, options);
   EXPECT_EQ(report.stopped, StopReason::out_of_time);
-  EXPECT_EQ(report.sheets.accepted + report.chords.accepted, 0);
+  EXPECT_EQ(report.collapses(), 0);
 }
 
 TEST(Simplify, WithoutChordsOnlySheetsGo) {
@@ -174,6 +174,12 @@ TEST(Simplify, WithoutChordsOnlySheetsGo) {
   EXPECT_EQ(report.chords.accepted, 0);
   for (int n : report.chords.refused) EXPECT_EQ(n, 0);
   EXPECT_EQ(report.after.components, 1);
+}
+
+TEST(Simplify, WithoutPeelsNoSheetIsTakenOffAFace) {
+  SimplifyOptions options;
+  options.peels = false;
+  EXPECT_EQ(simplify_well(make_small_sphere(), options).peels.tried(), 0);
 }
 
 // Nothing can be removed from these.
@@ -191,7 +197,7 @@ TEST_P(SimplestMesh, ComesBackAsItWas) {
   const HexMesh input = GetParam()();
   HexMesh mesh = input;
   const SimplifyReport report = simplify(mesh);
-  ASSERT_EQ(report.sheets.accepted + report.chords.accepted, 0);
+  ASSERT_EQ(report.collapses(), 0);
   EXPECT_TRUE(content(mesh) == content(input));
   EXPECT_EQ(report.refined, 0);
   EXPECT_EQ(report.stopped, StopReason::nothing_left);
@@ -275,6 +281,7 @@ TEST(Simplify, ObserverIsToldOfEveryKindOfStep) {
   };
   EXPECT_EQ(count(StepKind::sheet), report.sheets.accepted);
   EXPECT_EQ(count(StepKind::chord), report.chords.accepted);
+  EXPECT_EQ(count(StepKind::peel), report.peels.accepted);
   EXPECT_EQ(count(StepKind::refinement), report.refined);
   ASSERT_GT(report.sheets.accepted, 0);
   EXPECT_EQ(steps.front().what, StepKind::start);
@@ -295,9 +302,10 @@ TEST(Simplify, ProfileAddsUpToTheRun) {
   const SimplifyReport report = simplify(mesh);
   EXPECT_NEAR(report.profile.seconds(), report.seconds, 0.01 * report.seconds);
   const Profile& p = report.profile;
-  EXPECT_EQ(report.profile[Stage::trial].entered, report.sheets.tried() + report.chords.tried());
+  EXPECT_EQ(report.profile[Stage::trial].entered,
+            report.sheets.tried() + report.chords.tried() + report.peels.tried());
   double trials = 0;
-  for (const TrialCounts* c : {&report.sheets, &report.chords}) {
+  for (const TrialCounts* c : {&report.sheets, &report.chords, &report.peels}) {
     trials = std::accumulate(c->seconds.begin(), c->seconds.end(), trials);
   }
   const double own = p[Stage::trial].seconds + p[Stage::plan_check].seconds +

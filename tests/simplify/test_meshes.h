@@ -9,6 +9,7 @@
 #include "ovm/edit/insert_sheet.h"
 #include "ovm/generators.h"
 #include "ovm/hex_mesh.h"
+#include "ovm/neighborhood.h"
 #include "ovm/quality.h"
 #include "ovm/topology_check.h"
 #include "ovm/topology_summary.h"
@@ -140,6 +141,15 @@ inline HexMesh make_pillowed_grid(int n) {
   HexMesh mesh = make_grid({n, n, n});
   const CellHandle middle(n * n * n / 2);
   insert_sheet(mesh, std::array{middle});
+  mesh.collect_garbage();
+  return mesh;
+}
+
+/// n^3 hexahedra and a closed sheet round them, under the whole of the surface.
+inline HexMesh make_padded_cube(int n) {
+  HexMesh mesh = make_grid({n, n, n});
+  const SheetInsertion padding = insert_sheet(mesh, all_cells(mesh), {.include_boundary = true});
+  EXPECT_EQ(padding.refusal, InsertRefusal::none);
   mesh.collect_garbage();
   return mesh;
 }

@@ -41,6 +41,7 @@ TEST_F(RankTool, ListsCandidatesWithTheirTerms) {
   EXPECT_EQ(j["ranking"], "weighted");
   ASSERT_FALSE(j["sheets"].empty());
   ASSERT_FALSE(j["chords"].empty());
+  ASSERT_TRUE(j["peels"].is_array());
   for (const char* key : {"energy", "valence_term", "width_term", "distortion_term", "thickness"}) {
     EXPECT_TRUE(j["sheets"][0][key].is_number()) << key;
   }
@@ -140,6 +141,22 @@ TEST_F(CollapseTool, CollapsesASheetThatRankLists) {
   EXPECT_LE(j["after"]["hausdorff_ratio"], 0.01);
 }
 
+TEST_F(CollapseTool, TakesASheetOffAFaceThatRankLists) {
+  make("octree-like --shape block-with-hole --resolution 12");
+  const Json ranked = Json::parse(run("hexweft-rank in.vtk --json -").out);
+  const auto& peels = ranked["peels"];
+  const auto passes = std::find_if(peels.begin(), peels.end(),
+                                   [](const Json& p) { return p["refusal"] == "none"; });
+  ASSERT_NE(passes, peels.end());
+  const std::string id = (*passes)["id"].dump();
+  const ToolRun result = run("hexweft-collapse in.vtk -o out.vtk --json - --peel " + id);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const Json j = Json::parse(result.out);
+  EXPECT_EQ(j["before"]["hexahedra"].get<int>() - j["after"]["hexahedra"].get<int>(),
+            (*passes)["cells"]);
+  EXPECT_LT(j["after"]["components"], j["before"]["components"]);
+}
+
 TEST_F(CollapseTool, SaysWhyNotAndWritesNothing) {
   make("grid --resolution 1");
   const ToolRun result = run("hexweft-collapse in.vtk -o out.vtk --sheet 0");
@@ -148,8 +165,10 @@ TEST_F(CollapseTool, SaysWhyNotAndWritesNothing) {
   EXPECT_THAT(result.err, IsSentenceOf("hexweft-collapse"));
   EXPECT_EQ(n_files(), 1);
   for (const std::string arguments :
-       {"in.vtk -o out.vtk", "in.vtk -o out.vtk --sheet 0 --chord 0", "in.vtk -o out.vtk --sheet 3",
-        "in.vtk -o out.vtk --chord -1", "in.vtk -o out.vtk --chord 0 --diagonal third"}) {
+       {"in.vtk -o out.vtk", "in.vtk -o out.vtk --sheet 0 --chord 0",
+        "in.vtk -o out.vtk --sheet 0 --peel 0", "in.vtk -o out.vtk --peel 0",
+        "in.vtk -o out.vtk --sheet 3", "in.vtk -o out.vtk --chord -1",
+        "in.vtk -o out.vtk --chord 0 --diagonal third"}) {
     SCOPED_TRACE(arguments);
     const ToolRun wrong = run("hexweft-collapse " + arguments);
     EXPECT_EQ(wrong.exit_code, 2);
