@@ -40,16 +40,6 @@ TEST(SimplifySlow, WhatWasCollapsedIsNotLostInTheLastCheck) {
   EXPECT_LT(report.after.components, report.before.components);
 }
 
-// The sheet under its surface is needed under the slanting faces, but not under the others.
-TEST(SimplifySlow, SheetsAreTakenOffTheFacesThatDoWithout) {
-  const HexMesh input = make_solid("wedge", 16);
-  SimplifyOptions without;
-  without.peels = false;
-  const SimplifyReport kept = simplify_well(input, without), peeled = simplify_well(input);
-  EXPECT_GT(peeled.peels.accepted, 0);
-  EXPECT_LT(peeled.after.components, kept.after.components);
-}
-
 // The same part simplified by each of the options.
 template <std::size_t n>
 std::array<SimplifyReport, n> simplify_by_each(const std::array<SimplifyOptions, n>& options) {
