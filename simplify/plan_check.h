@@ -26,7 +26,8 @@ struct PredictedEdge {
 
 /// The edges at merged vertices after the collapse. Counting the cells that survive round a group;
 /// for two edges this is v_l + v_r - 4, or - 2 where the face between them is on the boundary
-/// (spec, "Corrections" to [Xu2021, Eq. 1]). Cost O(size of the plan) + a pass over the vertices.
+/// (spec, "Corrections" to [Xu2021, Eq. 1]). What a peel uncovers is on the boundary then, and what it
+/// takes away is left out. Cost O(size of the plan) + a pass over the vertices.
 std::vector<PredictedEdge> predict_edges(const HexMesh& mesh, const SingularityGraph& graph,
                                          const CollapsePlan& plan);
 

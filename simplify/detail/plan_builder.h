@@ -29,6 +29,7 @@ class PlanBuilder {
     plan_.removed.erase(std::unique(plan_.removed.begin(), plan_.removed.end()),
                         plan_.removed.end());
     std::vector<std::pair<int, VertexHandle>> by_class;
+    by_class.reserve(sets_.size());
     for (int i = 0; i < sets_.size(); ++i) by_class.emplace_back(sets_.find(i), vertices_[i]);
     std::sort(by_class.begin(), by_class.end());
     for (std::size_t i = 0; i < by_class.size(); ++i) {

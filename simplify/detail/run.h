@@ -76,8 +76,7 @@ class Run {
   bool peel_some(std::span<Manner* const> in_turn);
   void know_base_complex();
   template <typename Fill>
-  bool any_changes_mesh(std::span<Manner* const> in_turn, const CandidateKeys& keys, bool patient,
-                        Fill&& fill);
+  bool any_changes_mesh(std::span<Manner* const> in_turn, bool patient, Fill&& fill);
   int most_in_round() const;
   void collapse_sheets(const CandidateQueues& queues, Turn& turn);
   void collapse_chords(const CandidateQueues& queues, Turn& turn);

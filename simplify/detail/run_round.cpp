@@ -27,29 +27,27 @@ constexpr double kVerifyEvery = 0.5;
 // \return whether the loop should go on from the start
 bool Run::collapse_some(std::span<Manner* const> in_turn, bool patient) {
   know_base_complex();
-  const auto [queues, keys] = timed(Stage::ranking, [&] {
-    return std::pair(make_queues(mesh_, bc_, options_, options_.ranking),
-                     CandidateKeys(mesh_, bc_));
-  });
-  const bool changed = any_changes_mesh(in_turn, keys, patient, [&](Turn& turn) {
+  const CandidateQueues queues =
+      timed(Stage::ranking, [&] { return make_queues(mesh_, bc_, options_, options_.ranking); });
+  const bool changed = any_changes_mesh(in_turn, patient, [&](Turn& turn) {
     collapse_sheets(queues, turn);
     if (turn.round.empty()) collapse_chords(queues, turn);
   });
   return changed || should_stop();
 }
 
-// For where nothing else goes on: what peels leave behind is in the way of sheets more often than not.
+// For where nothing else goes on: what peels leave behind is in the way of sheets more often than
+// not.
 // \return whether the loop should go on
 bool Run::peel_some(std::span<Manner* const> in_turn) {
   const int failed_before = std::exchange(failed_in_a_row_, 0);
   know_base_complex();
-  const auto [peels, keys] = timed(Stage::ranking, [&] {
+  const std::vector<Peel> peels = timed(Stage::ranking, [&] {
     const auto on_feature = base_edges_on_features(bc_, context_.feature_labels());
-    return std::pair(extract_peels(bc_, extract_sheets(bc_), on_feature),
-                     CandidateKeys(mesh_, bc_));
+    return extract_peels(bc_, extract_sheets(bc_), on_feature);
   });
   const bool changed =
-      any_changes_mesh(in_turn, keys, false, [&](Turn& turn) { collapse_peels(peels, turn); });
+      any_changes_mesh(in_turn, false, [&](Turn& turn) { collapse_peels(peels, turn); });
   if (changed) {
     report_.stopped = StopReason::nothing_left;
   } else {
@@ -66,10 +64,11 @@ void Run::know_base_complex() {
   context_.labels.reset();
 }
 
+// Gives each manner a turn until one changes the mesh.
 // \return whether one has, or did for a while
 template <typename Fill>
-bool Run::any_changes_mesh(std::span<Manner* const> in_turn, const CandidateKeys& keys,
-                           bool patient, Fill&& fill) {
+bool Run::any_changes_mesh(std::span<Manner* const> in_turn, bool patient, Fill&& fill) {
+  const CandidateKeys keys = timed(Stage::ranking, [&] { return CandidateKeys(mesh_, bc_); });
   return std::any_of(in_turn.begin(), in_turn.end(), [&](Manner* manner) {
     if (!manner->wanted || should_stop()) return false;
     const Tally before = tally();
@@ -136,17 +135,18 @@ void Run::collapse_peels(const std::vector<Peel>& peels, Turn& turn) {
 }
 
 bool Run::attempt(const Proposal& proposal, TrialCounts& counts, Turn& turn) {
-  const auto& [keys, patient, manner, round] = turn;
+  Manner& manner = turn.manner;
+  Round& round = turn.round;
   if (!round.is_clear_of(proposal.parts)) return false;
-  const CandidateKey key = keys.key(proposal.parts);
-  if (manner.memory.should_wait(key, step_, patient)) {
+  const CandidateKey key = turn.keys.key(proposal.parts);
+  if (manner.memory.should_wait(key, step_, turn.patient)) {
     ++counts.waited;
     return false;
   }
   const CollapsePlan plan = timed(Stage::planning, proposal.plan);
   if (!round.is_clear_of(plan)) return false;
-  const bool has_cause =
-      timed(Stage::planning, [&] { return manner.memory.has_cause(mesh_, plan, step_, patient); });
+  const bool has_cause = timed(
+      Stage::planning, [&] { return manner.memory.has_cause(mesh_, plan, step_, turn.patient); });
   if (has_cause) {
     ++counts.waited;
     return false;
