@@ -40,7 +40,7 @@ CutSurfaces::CutSurfaces(const HexMesh& mesh, SingularityGraph& graph)
     if (singular || graph.singular_vertex[a.idx] || graph.singular_vertex[b.idx])
       seeds.push_back(e);
   }
-  trace(std::move(seeds));
+  trace(seeds);
   for (const SingularCurve& curve : graph.curves) {
     if (curve.closed) add_nodes(curve);
   }
@@ -48,7 +48,7 @@ CutSurfaces::CutSurfaces(const HexMesh& mesh, SingularityGraph& graph)
 
 // Base edges run straight on from the seeds through regular vertices; surfaces start on all of
 // them.
-void CutSurfaces::trace(std::vector<EdgeHandle> seeds) {
+void CutSurfaces::trace(std::span<const EdgeHandle> seeds) {
   std::vector<EdgeHandle> front;
   const auto add = [&](EdgeHandle e) {
     if (traced_[e.idx]) return;
@@ -144,7 +144,7 @@ void CutSurfaces::add_nodes(const SingularCurve& curve) {
     graph_.singular_vertex[v.idx] = 1;
     for (EdgeHandle e : mesh_.edges(v)) seeds.push_back(e);
   }
-  trace(std::move(seeds));
+  trace(seeds);
 }
 
 }  // namespace hexweft

@@ -2,6 +2,7 @@
 /// The surfaces that cut a mesh into the components of its base complex.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "ovm/hex_mesh.h"
@@ -23,7 +24,7 @@ class CutSurfaces {
   bool is_wall(HalfFaceHandle hf) const { return mesh_.is_boundary(hf) || is_cut(mesh_.face(hf)); }
 
  private:
-  void trace(std::vector<EdgeHandle> seeds);
+  void trace(std::span<const EdgeHandle> seeds);
   void cut_at(EdgeHandle e);
   void spread();
   void add_nodes(const SingularCurve& curve);

@@ -74,12 +74,14 @@ void FailureMemory::failed_at(const HexMesh& mesh, const CollapsePlan& plan,
   std::vector<Cause>& known = causes_[c.groups.front()];
   const auto same = std::find_if(known.begin(), known.end(),
                                  [&](const Cause& k) { return k.groups == c.groups; });
-  Cause& kept = same != known.end() ? *same : known.emplace_back(std::move(c));
-  if (same != known.end() && kept.surroundings != c.surroundings) {
-    kept.surroundings = c.surroundings;
-    kept.waiting = {};
+  if (same == known.end()) {
+    known.push_back(std::move(c));
+    known.back().waiting.again(step);
+    return;
   }
-  kept.waiting.again(step);
+  if (same->surroundings != c.surroundings) same->waiting = {};
+  same->surroundings = c.surroundings;
+  same->waiting.again(step);
 }
 
 bool FailureMemory::has_cause(const HexMesh& mesh, const CollapsePlan& plan, int step,

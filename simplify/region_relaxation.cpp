@@ -53,7 +53,7 @@ class RegionRelaxation {
     const Refusal refusal = relax();
     if (refusal == Refusal::none) return {};
     // Where it failed first: what splits have left elsewhere is not the cause.
-    const RegionResult failed = {
+    RegionResult failed = {
         refusal, refusal == Refusal::hausdorff ? context_.distance.too_far_at() : worst_cell_};
     if (refusal != Refusal::hausdorff || options_.splits_per_trial == 0) return failed;
     return split_until_near() ? RegionResult{} : failed;

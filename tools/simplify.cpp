@@ -181,7 +181,7 @@ SimplifyReport simplify_as_asked(cli::Program& program, Request& request, HexMes
       write_checkpoint([&] { file.write(now, state); });
     };
   }
-  const SimplifyReport report = from ? resume_simplify(mesh, *from, o) : simplify(mesh, o);
+  SimplifyReport report = from ? resume_simplify(mesh, *from, o) : simplify(mesh, o);
   if (log) write_log([&] { log->write(last_line(report)); });
   return report;
 }
