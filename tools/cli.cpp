@@ -125,10 +125,10 @@ void Program::check_paths() const {
 }
 
 void Program::expect_apart(const std::string& option, const std::string& path) const {
-  for (const std::string& other : {input_path_, output_path_, json_path_}) {
-    if (!is_same_file(path, other)) continue;
+  const bool is_taken = is_same_file(path, input_path_) || is_same_file(path, output_path_) ||
+                        is_same_file(path, json_path_);
+  if (is_taken)
     throw InputError(option + " = " + path + ", expected another file than INPUT and the outputs");
-  }
 }
 
 int Program::run(int argc, char** argv, const std::function<int()>& body) {
