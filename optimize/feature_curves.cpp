@@ -9,8 +9,9 @@ namespace {
 
 constexpr int kStretch = 8;  // segments of a box
 
-// Lines that may be within reach of a point, for Eigen::BVIntersect.
+// Lines that may be within reach of a point, for Eigen::BVIntersect, which asks for these names.
 struct Nearby {
+  // NOLINTBEGIN(readability-identifier-naming)
   bool intersectVolume(const Eigen::AlignedBox3d& box) const {
     return box.squaredExteriorDistance(p) <= reach * reach;
   }
@@ -18,6 +19,7 @@ struct Nearby {
     lines.push_back(line);
     return false;  // go on
   }
+  // NOLINTEND(readability-identifier-naming)
   Eigen::Vector3d p;
   double reach;
   std::vector<int> lines = {};
