@@ -200,7 +200,7 @@ class Extractor {
                         std::equal(chain_.rbegin(), chain_.rend(), old.begin(), old.end());
       return same ? known : -1;
     }
-    return add_base_edge(comp, edge);
+    return add_base_edge(comp, edge, first);
   }
 
   // Edge i of the chain along a component's edge.
@@ -213,8 +213,7 @@ class Extractor {
                          edge_axis(edge));
   }
 
-  int add_base_edge(const Component& comp, int edge) {
-    const EdgeHandle first = edge_of_chain(comp, edge, 0);
+  int add_base_edge(const Component& comp, int edge, EdgeHandle first) {
     BaseEdge e;
     e.first = static_cast<int>(bc_.edge_vertices.size());
     e.n = static_cast<int>(chain_.size()) - 1;

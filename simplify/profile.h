@@ -22,7 +22,7 @@ enum class Stage {
   other,
   preparation,      ///< the reference surface and the figures of the input
   base_complex,     ///< where it is extracted anew
-  ranking,          ///< sheets and chords, their terms and cheap filters
+  ranking,          ///< sheets, chords and peels, their terms and cheap filters
   planning,         ///< which vertices a candidate would merge
   trial,            ///< the rest of the trial of a collapse: edit, roll back
   plan_check,       ///< of a trial: predicted valences and angles

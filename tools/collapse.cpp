@@ -86,10 +86,8 @@ int main(int argc, char** argv) {
   using namespace hexweft;
   cli::Program program("hexweft-collapse",
                        "Collapses one sheet or chord of the base complex, or takes a sheet off one "
-                       "face of the surface, "
-                       "and relaxes the mesh round it. Writes nothing where that would leave the "
-                       "mesh invalid or the surface "
-                       "too far away.");
+                       "face of the surface, and relaxes the mesh round it. Writes nothing where "
+                       "that would leave the mesh invalid or the surface too far away.");
   Request request;
   CLI::App& app = program.app();
   program.add_input();

@@ -78,6 +78,9 @@ class Run {
   template <typename Fill>
   bool any_changes_mesh(std::span<Manner* const> in_turn, bool patient, Fill&& fill);
   int most_in_round() const;
+  template <typename Candidates, typename Propose>
+  void collapse_in_order(const Candidates& candidates, int most, TrialCounts& counts, Turn& turn,
+                         Propose&& propose);
   void collapse_sheets(const CandidateQueues& queues, Turn& turn);
   void collapse_chords(const CandidateQueues& queues, Turn& turn);
   void collapse_peels(const std::vector<Peel>& peels, Turn& turn);

@@ -91,47 +91,50 @@ int Run::most_in_round() const {
   return std::max(kMostInRound, static_cast<int>(bc_.components.size()) / kComponentsPerCollapse);
 }
 
-void Run::collapse_sheets(const CandidateQueues& q, Turn& turn) {
-  const int most = most_in_round();
-  for (const Candidate& c : q.sheet_queue) {
+// Those that the round has room for, in order.
+template <typename Candidates, typename Propose>
+void Run::collapse_in_order(const Candidates& candidates, int most, TrialCounts& counts, Turn& turn,
+                            Propose&& propose) {
+  for (const auto& c : candidates) {
     if (should_stop()) return;
+    if (!attempt(propose(c), counts, turn)) continue;
+    if (std::ssize(turn.round.collapses()) >= most || is_short_of_cells(kShortOfCells)) return;
+  }
+}
+
+void Run::collapse_sheets(const CandidateQueues& q, Turn& turn) {
+  const auto propose = [&](const Candidate& c) {
     const Sheet& sheet = q.sheets[c.index];
-    const Proposal proposal = {
+    return Proposal{
         parts_of(sheet),
         [&] { return plan_sheet_collapse(mesh_, bc_, sheet); },
         {.what = StepKind::sheet, .kind = name(sheet.kind), .sheet_terms = q.sheet_terms[c.index]}};
-    if (!attempt(proposal, report_.sheets, turn)) continue;
-    if (std::ssize(turn.round.collapses()) >= most || is_short_of_cells(kShortOfCells)) return;
-  }
+  };
+  collapse_in_order(q.sheet_queue, most_in_round(), report_.sheets, turn, propose);
 }
 
 void Run::collapse_chords(const CandidateQueues& q, Turn& turn) {
   const int fair = static_cast<int>(bc_.components.size()) / kComponentsPerChord;
   const int most = std::clamp(fair, 1, most_in_round());
-  for (const Candidate& c : q.chord_queue) {
-    if (should_stop()) return;
+  const auto propose = [&](const Candidate& c) {
     const Chord& chord = q.chords[c.index];
     const ChordTerms& terms = q.chord_terms[c.index];
     const auto find_parts = [&] { return parts_of(mesh_, bc_, chord, terms.diagonal, q.sheets); };
-    const Proposal proposal = {
+    return Proposal{
         timed(Stage::planning, find_parts),
         [&] { return plan_chord_collapse(mesh_, bc_, chord, terms.diagonal, q.sheets); },
         {.what = StepKind::chord, .kind = chord.closed ? "closed" : "open", .chord_terms = terms}};
-    if (!attempt(proposal, report_.chords, turn)) continue;
-    if (std::ssize(turn.round.collapses()) >= most || is_short_of_cells(kShortOfCells)) return;
-  }
+  };
+  collapse_in_order(q.chord_queue, most, report_.chords, turn, propose);
 }
 
 void Run::collapse_peels(const std::vector<Peel>& peels, Turn& turn) {
-  const int most = most_in_round();
-  for (const Peel& peel : peels) {
-    if (should_stop()) return;
-    const Proposal proposal = {parts_of(peel),
-                               [&] { return plan_peel(mesh_, bc_, peel); },
-                               {.what = StepKind::peel, .kind = name(peel.kind)}};
-    if (!attempt(proposal, report_.peels, turn)) continue;
-    if (std::ssize(turn.round.collapses()) >= most || is_short_of_cells(kShortOfCells)) return;
-  }
+  const auto propose = [&](const Peel& peel) {
+    return Proposal{parts_of(peel),
+                    [&] { return plan_peel(mesh_, bc_, peel); },
+                    {.what = StepKind::peel, .kind = name(peel.kind)}};
+  };
+  collapse_in_order(peels, most_in_round(), report_.peels, turn, propose);
 }
 
 bool Run::attempt(const Proposal& proposal, TrialCounts& counts, Turn& turn) {

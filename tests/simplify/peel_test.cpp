@@ -107,17 +107,15 @@ TEST(Peel, WhatLayUnderItComesUpToTheFace) {
     const BaseComplex bc = extract_base_complex(mesh);
     for (const Peel& peel : peels_of(mesh, bc)) {
       Transaction trial(mesh);
-      std::set<VertexHandle> on_face;
+      Eigen::AlignedBox3d face;
       const auto [component, side] = peel.components.front();
       const Component& c = bc.components[component];
       for (CellHandle cell : bc.cells(c)) {
         for (HalfFaceHandle hf : mesh.halffaces(cell)) {
           if (!mesh.is_boundary(hf)) continue;
-          for (VertexHandle v : mesh.vertices(hf)) on_face.insert(v);
+          for (VertexHandle v : mesh.vertices(hf)) face.extend(mesh.point(v));
         }
       }
-      Eigen::AlignedBox3d face;
-      for (VertexHandle v : on_face) face.extend(mesh.point(v));
       const CollapsePlan plan = plan_peel(mesh, bc, peel);
       ASSERT_EQ(plan.places.size(), static_cast<std::size_t>(plan.n_groups()));
       for (const Eigen::Vector3d& p : plan.places) EXPECT_TRUE(face.contains(p)) << p.transpose();
