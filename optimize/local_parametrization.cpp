@@ -114,7 +114,8 @@ bool Parametrization::untangle() {
   report_.untangled = true;
   if (options_.untangling_rounds == 0) return false;
   std::optional<ProblemPart> part = part_round_flat();
-  return (part && untangle(&*part)) || untangle(nullptr);
+  if (part && untangle(&*part)) return true;
+  return (!part || options_.untangle_widely) && untangle(nullptr);
 }
 
 /// Follows the regularized energy with ε tied to the worst corner, until no corner is flat.

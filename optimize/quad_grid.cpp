@@ -83,10 +83,11 @@ void QuadGrid::look_into(int x, int y, int z, const Eigen::Vector3d& p, Nearest&
   }
 }
 
-QuadGrid::Nearest QuadGrid::nearest(const Eigen::Vector3d& p, int guess) {
+QuadGrid::Nearest QuadGrid::nearest(const Eigen::Vector3d& p, int guess, double enough) {
   Nearest best{std::numeric_limits<double>::infinity(), -1};
   if (n_present_ == 0) return best;
   ++query_;
+  const auto is_enough = [&] { return enough > 0 && best.squared_distance <= enough * enough; };
   if (guess >= 0) best = {squared_distance(p, quads_[guess].points), guess};
   const Index at = index_of(p);
   double margin = cell_size_;  // from p to the nearest wall of its cell
@@ -97,7 +98,7 @@ QuadGrid::Nearest QuadGrid::nearest(const Eigen::Vector3d& p, int guess) {
   const int rings = std::max({size_[0], size_[1], size_[2]});
   for (int ring = 0; ring < rings; ++ring) {
     const double bound = ring == 0 ? 0 : (ring - 1) * cell_size_ + margin;
-    if (bound * bound > best.squared_distance) break;
+    if (bound * bound > best.squared_distance || is_enough()) break;
     for (int z = std::max(0, at[2] - ring); z <= std::min(size_[2] - 1, at[2] + ring); ++z) {
       for (int y = std::max(0, at[1] - ring); y <= std::min(size_[1] - 1, at[1] + ring); ++y) {
         const bool shell = std::abs(z - at[2]) == ring || std::abs(y - at[1]) == ring;

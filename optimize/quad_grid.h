@@ -34,9 +34,11 @@ class QuadGrid {
     double squared_distance;  ///< infinite if the grid is empty
     int id;                   ///< -1 if the grid is empty
   };
-  /// The nearest quad. \param p  inside the box \param guess  a quad of the grid thought to be
-  /// near, or -1
-  Nearest nearest(const Eigen::Vector3d& p, int guess = -1);
+  /// The nearest quad, or as soon as one is known that is no farther than `enough`, that one.
+  /// \param p       inside the box
+  /// \param guess   a quad of the grid thought to be near, or -1
+  /// \param enough  ≥ 0, model units
+  Nearest nearest(const Eigen::Vector3d& p, int guess = -1, double enough = 0);
 
  private:
   struct Quad {

@@ -289,6 +289,8 @@ void validate(const SmoothingOptions& o) {
     }
   };
   require(o.hausdorff_limit_rel > 0, "hausdorff_limit_rel", o.hausdorff_limit_rel, "> 0");
+  if (o.initial_hausdorff_rel)
+    require(*o.initial_hausdorff_rel >= 0, "initial_hausdorff_rel", *o.initial_hausdorff_rel, ">= 0");
   require(o.cycles > 0, "cycles", o.cycles, "> 0");
   require(o.global_rounds >= 0, "global_rounds", o.global_rounds, ">= 0");
   require(o.mean_rounds >= 0, "mean_rounds", o.mean_rounds, ">= 0");
@@ -302,18 +304,23 @@ SmoothingReport smooth(HexMesh& mesh, const ReferenceSurface& reference,
                        const SmoothingOptions& options) {
   validate(options);
   if (mesh.n_cells() == 0) return {};
-  const double before = hausdorff_distance(mesh, reference).ratio();
+  const auto measured = [&] { return hausdorff_distance(mesh, reference).ratio(); };
+  const double before =
+      options.initial_hausdorff_rel ? *options.initial_hausdorff_rel : measured();
   const Measure start = measure(quality(mesh, all_cells(mesh)));
   SmoothingReport report;
   report.initial_min_scaled_jacobian = report.min_scaled_jacobian = start.least;
   report.initial_mean_scaled_jacobian = report.mean_scaled_jacobian = start.mean;
   report.initial_hausdorff_rel = report.hausdorff_rel = before;
+  bool any = false;
   for (int cycle = 0; cycle < options.cycles && !options.stop.stop_requested(); ++cycle) {
     const auto next = run_cycle(mesh, reference, options, before);
     if (!next) break;
+    any = true;
     report = both(report, *next);
     if (!gained(*next)) break;
   }
+  if (!any && options.initial_hausdorff_rel) report.hausdorff_rel = measured();
   return report;
 }
 

@@ -4,6 +4,7 @@
 ///     const SmoothingReport report = smooth(mesh, reference);
 #pragma once
 
+#include <optional>
 #include <stop_token>
 
 #include "optimize/local_parametrization.h"
@@ -19,6 +20,9 @@ struct SmoothingOptions {
   double enough_scaled_jacobian =
       0.6;  ///< [0, 1], cells at least this good are not worked on one by one
   ParametrizationOptions parametrization = {.surface = {.treatment = SurfaceTreatment::fit}};
+  /// ≥ 0, what the distance at the start is known not to be over, as hausdorff_limit_rel; unset: it is
+  /// measured, which takes a tenth of the time
+  std::optional<double> initial_hausdorff_rel = {};
   std::stop_token stop = {};  ///< ends after the pass at hand
 };
 void validate(const SmoothingOptions& options);  ///< \throws InputError
@@ -26,7 +30,8 @@ void validate(const SmoothingOptions& options);  ///< \throws InputError
 struct SmoothingReport {
   double initial_min_scaled_jacobian = 1, min_scaled_jacobian = 1;
   double initial_mean_scaled_jacobian = 1, mean_scaled_jacobian = 1;
-  double initial_hausdorff_rel = 0, hausdorff_rel = 0;  ///< of hausdorff_distance()
+  double initial_hausdorff_rel = 0;  ///< of hausdorff_distance(), or as it was given
+  double hausdorff_rel = 0;          ///< of hausdorff_distance()
   int accepted_global = 0, accepted_local = 0, trials = 0;
 };
 

@@ -104,6 +104,7 @@ SurfaceDistance::SurfaceDistance(const HexMesh& mesh, const ReferenceSurface& re
   if (options.mesh_levels < 0 || options.reference_levels < 0 || options.suspect_levels < 0) {
     throw InputError("a number of subdivisions is negative, expected >= 0");
   }
+  if (!(options.negligible >= 0)) throw InputError("negligible is negative, expected >= 0");
   make_samples(options.reference_levels);
   after_change(mesh);
   commit();
@@ -179,11 +180,14 @@ double SurfaceDistance::forward_distance(const HexMesh& mesh, int side, double l
   const auto vertices = mesh.vertices(hf);
   const auto edges = mesh.edges(hf);
   double d = 0;
-  const auto look_at = [&](const Eigen::Vector3d& p) { d = std::max(d, cache.distance(p, d)); };
+  const auto enough = [&] { return std::max(d, options_.negligible); };
+  const auto look_at = [&](const Eigen::Vector3d& p) {
+    d = std::max(d, cache.distance(p, enough()));
+  };
   look_at((q[0] + q[2]) / 2);
   for (int i = 0; i < 4; ++i) {
-    d = std::max(d, cache.vertex(vertices[i], q[i], d));
-    d = std::max(d, cache.edge(edges[i], (q[i] + q[(i + 1) % 4]) / 2, d));
+    d = std::max(d, cache.vertex(vertices[i], q[i], enough()));
+    d = std::max(d, cache.edge(edges[i], (q[i] + q[(i + 1) % 4]) / 2, enough()));
   }
   const auto look_at_part = [&](const auto& a, const auto& b, const auto& c, int levels) {
     look_at((a + b + c) / 3);
@@ -272,7 +276,7 @@ double SurfaceDistance::update_samples(const std::vector<int>& changed, double l
   for (int sample : stale) {
     const int side = nearest_side_.side(sample);
     const int guess = side >= 0 && grid_.contains(side) ? side : -1;
-    const QuadGrid::Nearest nearest = grid_.nearest(samples_[sample], guess);
+    const QuadGrid::Nearest nearest = grid_.nearest(samples_[sample], guess, options_.negligible);
     sample_undo_.push_back({sample, side, backward_[sample]});
     nearest_side_.move(sample, nearest.id);
     backward_[sample] = std::sqrt(nearest.squared_distance);

@@ -29,13 +29,16 @@ struct SurfaceDistanceOptions {
   int reference_levels = 0;  ///< ≥ 0, subdivisions of a triangle of the reference
   int suspect_levels = 2;    ///< ≥ 0, more of these for a side whose samples come near the limit
   double suspect_rel = 0.5;  ///< (0, 1], of the limit: how near that is
+  /// ≥ 0, model units; distances up to it are not told apart, which saves most of the search for
+  /// closest points: any number from the distance to this stands for one
+  double negligible = 0;
 };
 
 /// Holds, for every boundary side of the mesh, its samples' largest distance to the reference, and
 /// for every sample of the reference the nearest side. A change recomputes the sides it moved, and
 /// the samples whose nearest side moved or went away. A sample whose nearest side stays keeps its
-/// distance, even if another side has come nearer: the result is never below the truth on the
-/// samples.
+/// distance, even if another side has come nearer, and one within SurfaceDistanceOptions::negligible
+/// of a side need not know a nearer one: the result is never below the truth on the samples.
 class SurfaceDistance {
  public:
   SurfaceDistance(const HexMesh& mesh, const ReferenceSurface& reference,
@@ -70,6 +73,7 @@ class SurfaceDistance {
   void rollback();  ///< to the last commit; the mesh must be rolled back by its transaction
 
   const ReferenceSurface& reference() const { return reference_; }
+  const SurfaceDistanceOptions& options() const { return options_; }
 
  private:
   struct SideUndo {

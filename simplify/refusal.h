@@ -32,6 +32,9 @@ inline constexpr int kRefusals = static_cast<int>(Refusal::hausdorff) + 1;
 /// Found out by moving vertices: the expensive way.
 constexpr bool is_geometric(Refusal r) { return r >= Refusal::inverted; }
 
+/// Of the hexahedra, whatever becomes of the surface.
+constexpr bool is_of_shape(Refusal r) { return r == Refusal::inverted || r == Refusal::quality; }
+
 /// Found out from the cells at the vertices that would merge and the features these are on: as long
 /// as the cells are the same there it stays so, as a rule, wherever the vertices move.
 constexpr bool is_of_connectivity(Refusal r) {

@@ -133,6 +133,7 @@ class RegionRelaxation {
     p.max_iterations = iterations;
     p.min_scaled_jacobian = share_of_least * least_;
     p.surface.treatment = treatment;
+    p.untangle_widely = false;  // as good as never helps
     const ParametrizationReport report = parametrize(context_.mesh, region_, context_.reference, p);
     worst_cell_.reset();
     if (!report.valid()) {

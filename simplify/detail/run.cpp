@@ -20,6 +20,9 @@ constexpr int kSplitsAtOnce = 5;
 // Up to this share sheets are split when nothing else goes on.
 constexpr double kMostCells = 1.1;
 
+// The loop does not tell distances below this share of the limit apart.
+constexpr double kNegligible = 0.25;
+
 SimplifyOptions careful_options(SimplifyOptions options) {
   options.min_scaled_jacobian =
       std::max(options.min_scaled_jacobian, options.careful.min_scaled_jacobian);
@@ -46,7 +49,9 @@ Run::Run(HexMesh& mesh, const ReferenceSurface& reference, const SimplifyOptions
       start_(Clock::now()),
       clock_(Stage::preparation),
       reference_(reference),
-      distance_(mesh, reference_),
+      distance_(mesh, reference_,
+                {.negligible = kNegligible * options.hausdorff_limit_rel *
+                               reference_.bounding_box_diagonal()}),
       context_{mesh,
                reference_,
                distance_,

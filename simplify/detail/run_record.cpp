@@ -181,7 +181,7 @@ void Run::replace_mesh(const HexMesh& mesh) {
   mesh_.collect_garbage();
   bc_ = extract_base_complex(mesh_);
   bc_of_this_mesh_ = true;
-  distance_ = SurfaceDistance(mesh_, reference_);
+  distance_ = SurfaceDistance(mesh_, reference_, distance_.options());
   forget_failures();
 }
 
@@ -215,6 +215,7 @@ void Run::smooth_all() {
                                     .cycles = 1,
                                     .local_trials = options_.smoothing_trials,
                                     .parametrization = options_.parametrization,
+                                    .initial_hausdorff_rel = options_.hausdorff_limit_rel,
                                     .stop = cut.get_token()};
   report_.hausdorff_ratio = smooth(mesh_, reference_, options).hausdorff_rel;
   if (cut.stop_requested()) is_cut_short();  // notes down why

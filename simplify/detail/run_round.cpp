@@ -166,9 +166,10 @@ bool Run::attempt(const Proposal& proposal, TrialCounts& counts, Turn& turn) {
       failed.memory.failed_at(mesh_, plan, result.cause, step_);
     };
     remember(manner);
-    // Careful trials differ from ordinary ones in their floors only.
+    // Careful trials differ from ordinary ones in their floors only; those of bold trials are higher.
     const bool has_another_chance = &manner == &careful_ && result.refusal == Refusal::quality;
     if (&manner == &careful_ && !has_another_chance) remember(ordinary_);
+    if (&manner != &bold_ && is_of_shape(result.refusal)) remember(bold_);
     failed_in_a_row_ += is_geometric(result.refusal) && !has_another_chance && round.empty();
     return false;
   }
@@ -214,7 +215,7 @@ void Run::end(Round& round, const Tally& before, Manner& manner) {
 // Of several the guilty one is not known: they are tried again one by one.
 void Run::take_back(Round& round, const Tally& before, Refusal refusal, Manner& manner) {
   round.take_back();
-  distance_ = SurfaceDistance(mesh_, reference_);
+  distance_ = SurfaceDistance(mesh_, reference_, distance_.options());
   bc_of_this_mesh_ = true;
   not_refinable_.clear();
   observed_.clear();
