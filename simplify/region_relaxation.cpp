@@ -91,29 +91,31 @@ class RegionRelaxation {
   // sheet is split across, which adds no component, as long as that helps and there is room for
   // the cells.
   bool split_until_near() {
-    constexpr double kFar = 4;  // of the limit: hopeless
-    constexpr int kSlow = 3;    // splits that need not help at once
+    // Of the limit, after so many splits: what is farther hardly ever comes near with more of them.
+    const auto hopeless = [](int splits) { return 1 + 3.0 / (1 + splits * splits); };
+    constexpr int kSlow = 3;  // splits that need not help at once
     HexMesh& mesh = context_.mesh;
     double last = 0;  // distance, before the last split
     const int most = std::min(options_.splits_per_trial, 2 * width_ + 2);
     for (int i = 0; i < most; ++i) {
       const auto [side, d] = farthest();
-      if (d > kFar * context_.distance_limit || (i >= kSlow && d > last)) return false;
+      if (d > hopeless(i) * context_.distance_limit || (i >= kSlow && d > last)) return false;
       last = d;
       const DualSheet sheet = dual_sheet(mesh, longest_edge(mesh, side));
       if (mesh.n_cells() + static_cast<int>(sheet.crossings.size()) > most_cells_) return false;
       split(sheet);
-      switch (finish(options_.parametrization.max_iterations,
-                     options_.parametrization.surface.treatment)) {
-        case Refusal::none:
-          return true;
-        case Refusal::hausdorff:
-          continue;
-        default:
-          return false;
-      }
+      const Refusal refusal = relax_after_split();
+      if (refusal == Refusal::none) return true;
+      if (refusal != Refusal::hausdorff) return false;
     }
     return false;
+  }
+
+  Refusal relax_after_split() {
+    const int all = options_.parametrization.max_iterations, first = std::min(1, all);
+    const Refusal early = move(first, SurfaceTreatment::project, kHalfway, 1 - kHalfwayMean);
+    if (early != Refusal::none) return early;
+    return finish(std::max(1, all - first), options_.parametrization.surface.treatment);
   }
 
   void split(const DualSheet& sheet) {
