@@ -26,7 +26,7 @@ struct ParametrizationOptions {
   Energy energy = InverseScaledJacobian{};  ///< one without a barrier is kept from inverting
   int max_iterations = 5;                   ///< > 0, each with new target shapes and a projection
   int relaxation_iterations = 10;           ///< > 0, L-BFGS steps in each
-  int untangling_rounds = 15;      ///< ≥ 0, each with a smaller ε; 0: an inverted start fails
+  int untangling_rounds = 15;  ///< ≥ 0, each with a smaller ε; 0: an inverted start fails
   /// Where moving what lies round the flat hexahedra does not untangle them, all of the region moves.
   bool untangle_widely = true;
   double min_scaled_jacobian = 0;  ///< [-1, 1), below it the result is not valid

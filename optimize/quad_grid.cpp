@@ -37,9 +37,7 @@ QuadGrid::Index QuadGrid::index_of(const Eigen::Vector3d& p) const {
 
 template <class F>
 void QuadGrid::for_each_cell(const Quad& quad, F&& visit) {
-  const auto& q = quad.points;
-  const Index from = index_of(q[0].cwiseMin(q[1]).cwiseMin(q[2]).cwiseMin(q[3]));
-  const Index to = index_of(q[0].cwiseMax(q[1]).cwiseMax(q[2]).cwiseMax(q[3]));
+  const Index from = index_of(quad.box.lower), to = index_of(quad.box.upper);
   for (int z = from[2]; z <= to[2]; ++z) {
     for (int y = from[1]; y <= to[1]; ++y) {
       for (int x = from[0]; x <= to[0]; ++x) visit(cell(x, y, z));
@@ -54,8 +52,7 @@ void QuadGrid::insert(int id, const QuadPoints& points) {
   assert(!quad.present);
   quad.points = points;
   quad.centre = (points[0] + points[1] + points[2] + points[3]) / 4;
-  quad.radius = 0;
-  for (const auto& p : points) quad.radius = std::max(quad.radius, (p - quad.centre).norm());
+  quad.box = box_of(points);
   quad.present = true;
   ++n_present_;
   for_each_cell(quad, [id](std::vector<int>& c) { c.push_back(id); });
@@ -76,8 +73,7 @@ void QuadGrid::look_into(int x, int y, int z, const Eigen::Vector3d& p, Nearest&
     Quad& quad = quads_[id];
     if (quad.visited == query_) continue;
     quad.visited = query_;
-    const double gap = (quad.centre - p).norm() - quad.radius;
-    if (gap > 0 && gap * gap > best.squared_distance) continue;
+    if (quad.box.squared_distance(p) > best.squared_distance) continue;
     const double d = squared_distance(p, quad.points);
     if (d < best.squared_distance || (d == best.squared_distance && id < best.id)) best = {d, id};
   }

@@ -9,6 +9,8 @@
 
 #include <Eigen/Core>
 
+#include "optimize/box.h"
+
 namespace hexweft {
 
 /// A side of a hexahedron as the two triangles (0,1,2) and (2,3,0).
@@ -44,7 +46,7 @@ class QuadGrid {
   struct Quad {
     QuadPoints points;
     Eigen::Vector3d centre;
-    double radius = 0;
+    Box3 box;
     bool present = false;
     std::int64_t visited = 0;  // number of the last query that looked at it
   };

@@ -10,6 +10,7 @@
 #include <Eigen/Geometry>
 #include <embree3/rtcore.h>
 
+#include "optimize/box.h"
 #include "optimize/closest_point.h"
 #include "optimize/triangle_mesh.h"
 #include "ovm/errors.h"
@@ -86,8 +87,8 @@ TriangleIndex::TriangleIndex(const Eigen::Matrix3Xd& points,
 
 /// What a query reads of a triangle, in one place.
 struct Facet {
-  Eigen::Vector3d a, b, c, normal, centre;
-  double radius;  // of the sphere round `centre` that holds the triangle
+  Eigen::Vector3d a, b, c, normal;
+  Box3 box;
   bool at_feature;
 };
 
@@ -111,9 +112,8 @@ struct Search {
 
   bool offer(int id) {
     const Facet& t = facets[id];
-    // Too far by its bounding sphere; the slack keeps triangles at equal distance in the race.
-    const double reach = std::sqrt(squared) + t.radius + slack;
-    if ((p - t.centre).squaredNorm() > reach * reach) return false;
+    // The slack keeps triangles at equal distance in the race.
+    if (t.box.squared_distance(p) > squared + slack * slack) return false;
     if (hint && t.normal.dot(*hint) <= 0) return false;
     const TrianglePoint q = closest_point(p, t.a, t.b, t.c);
     const double d = (q.point - p).squaredNorm();
@@ -184,12 +184,9 @@ void ReferenceSurface::Impl::make_facets(double feature_angle_deg) {
     const auto& [a, b, c] = triangles[f.idx()];
     bool at_feature = false;
     for (auto v = mesh.cfv_iter(f); v.is_valid(); ++v) at_feature |= sharp[v->idx()] != 0;
-    const Eigen::Vector3d middle = (points.col(a) + points.col(b) + points.col(c)) / 3;
-    const double radius = std::sqrt(
-        std::max({(points.col(a) - middle).squaredNorm(), (points.col(b) - middle).squaredNorm(),
-                  (points.col(c) - middle).squaredNorm()}));
-    facets.push_back({points.col(a), points.col(b), points.col(c), to_eigen(mesh.normal(f)), middle,
-                      radius, at_feature});
+    const std::array<Eigen::Vector3d, 3> corners = {points.col(a), points.col(b), points.col(c)};
+    facets.push_back({corners[0], corners[1], corners[2], to_eigen(mesh.normal(f)), box_of(corners),
+                      at_feature});
   }
 }
 

@@ -39,8 +39,13 @@ Measure measure(const std::vector<double>& sj) {
 }
 
 // What lies between the samples is looked at before a pass is kept.
-constexpr SurfaceDistanceOptions kSamples{
-    .mesh_levels = 1, .reference_levels = 1, .suspect_levels = 0};
+SurfaceDistanceOptions samples_for(double limit) {
+  constexpr double kNegligible = 0.5;
+  return {.mesh_levels = 1,
+          .reference_levels = 1,
+          .suspect_levels = 0,
+          .negligible = kNegligible * limit};
+}
 
 constexpr double kLeastGain = 5e-3, kMeanGain = 5e-4;  // of a whole-mesh pass worth its time
 
@@ -58,7 +63,7 @@ class Smoother {
            double limit)
       : mesh_(mesh),
         options_(options),
-        distance_(mesh, reference, kSamples),
+        distance_(mesh, reference, samples_for(limit)),
         cells_(all_cells(mesh)),
         limit_(limit) {}
 
@@ -243,13 +248,15 @@ SmoothingReport Smoother::run() {
   return report_;
 }
 
-/// One cycle. \param before  Hausdorff ratio at the start of the first
+/// One cycle. \param before  Hausdorff ratio at the start of the first, or what it is not over
 /// \return nothing, with the mesh as it was, if all that it tried ended over the limit
 std::optional<SmoothingReport> run_cycle(HexMesh& mesh, const ReferenceSurface& reference,
                                          const SmoothingOptions& options, double before) {
   // The passes do not look quite as closely as the last word; where that is
   // over the limit, they start again with a little less room.
   for (double room : {1.0, 0.9, 0.6}) {
+    if (room < 1 && options.initial_hausdorff_rel)
+      before = std::min(before, hausdorff_distance(mesh, reference).ratio());
     Transaction attempt(mesh);
     const double limit = std::max(before, room * options.hausdorff_limit_rel);
     SmoothingReport report =
@@ -290,7 +297,8 @@ void validate(const SmoothingOptions& o) {
   };
   require(o.hausdorff_limit_rel > 0, "hausdorff_limit_rel", o.hausdorff_limit_rel, "> 0");
   if (o.initial_hausdorff_rel)
-    require(*o.initial_hausdorff_rel >= 0, "initial_hausdorff_rel", *o.initial_hausdorff_rel, ">= 0");
+    require(*o.initial_hausdorff_rel >= 0, "initial_hausdorff_rel", *o.initial_hausdorff_rel,
+            ">= 0");
   require(o.cycles > 0, "cycles", o.cycles, "> 0");
   require(o.global_rounds >= 0, "global_rounds", o.global_rounds, ">= 0");
   require(o.mean_rounds >= 0, "mean_rounds", o.mean_rounds, ">= 0");
@@ -305,8 +313,7 @@ SmoothingReport smooth(HexMesh& mesh, const ReferenceSurface& reference,
   validate(options);
   if (mesh.n_cells() == 0) return {};
   const auto measured = [&] { return hausdorff_distance(mesh, reference).ratio(); };
-  const double before =
-      options.initial_hausdorff_rel ? *options.initial_hausdorff_rel : measured();
+  const double before = options.initial_hausdorff_rel ? *options.initial_hausdorff_rel : measured();
   const Measure start = measure(quality(mesh, all_cells(mesh)));
   SmoothingReport report;
   report.initial_min_scaled_jacobian = report.min_scaled_jacobian = start.least;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <unordered_map>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -59,41 +58,6 @@ QuadGrid make_grid(const ReferenceSurface& reference) {
 }
 
 }  // namespace
-
-/// What one update knows: distances of vertices and edge midpoints that several sides share.
-class SurfaceDistance::VertexAndEdgeCache {
- public:
-  explicit VertexAndEdgeCache(const ReferenceSurface& reference) : reference_(reference) {}
-
-  /// The distance of a point, or as soon as that is known to be at most `enough`, any such number.
-  double distance(const Eigen::Vector3d& p, double enough) {
-    return reference_.distance(p, near_, enough);
-  }
-  double vertex(VertexHandle v, const Eigen::Vector3d& p, double enough) {
-    return shared(2 * static_cast<std::int64_t>(v.idx), p, enough);
-  }
-  double edge(EdgeHandle e, const Eigen::Vector3d& middle, double enough) {
-    return shared(2 * static_cast<std::int64_t>(e.idx) + 1, middle, enough);
-  }
-
- private:
-  struct Known {
-    double at_most = std::numeric_limits<double>::infinity();
-    bool exact = false;
-  };
-  double shared(std::int64_t key, const Eigen::Vector3d& p, double enough) {
-    Known& known = known_[key];
-    if (!known.exact && known.at_most > enough) {
-      const double d = distance(p, enough);
-      known = {d, d > enough};
-    }
-    return known.at_most;
-  }
-
-  const ReferenceSurface& reference_;
-  int near_ = -1;
-  std::unordered_map<std::int64_t, Known> known_;
-};
 
 SurfaceDistance::SurfaceDistance(const HexMesh& mesh, const ReferenceSurface& reference,
                                  const SurfaceDistanceOptions& options)
@@ -173,8 +137,7 @@ double SurfaceDistance::distance_at(HalfFaceHandle hf) const {
   return d;
 }
 
-double SurfaceDistance::forward_distance(const HexMesh& mesh, int side, double limit,
-                                         VertexAndEdgeCache& cache) const {
+double SurfaceDistance::forward_distance(const HexMesh& mesh, int side, double limit) {
   const HalfFaceHandle hf(side);
   const QuadPoints& q = grid_.points(side);
   const auto vertices = mesh.vertices(hf);
@@ -182,12 +145,13 @@ double SurfaceDistance::forward_distance(const HexMesh& mesh, int side, double l
   double d = 0;
   const auto enough = [&] { return std::max(d, options_.negligible); };
   const auto look_at = [&](const Eigen::Vector3d& p) {
-    d = std::max(d, cache.distance(p, enough()));
+    d = std::max(d, reference_.distance(p, near_[side], enough()));
   };
   look_at((q[0] + q[2]) / 2);
   for (int i = 0; i < 4; ++i) {
-    d = std::max(d, cache.vertex(vertices[i], q[i], enough()));
-    d = std::max(d, cache.edge(edges[i], (q[i] + q[(i + 1) % 4]) / 2, enough()));
+    d = std::max(d, of_vertices_.distance(reference_, vertices[i].idx, q[i], enough()));
+    const Eigen::Vector3d middle = (q[i] + q[(i + 1) % 4]) / 2;
+    d = std::max(d, of_edges_.distance(reference_, edges[i].idx, middle, enough()));
   }
   const auto look_at_part = [&](const auto& a, const auto& b, const auto& c, int levels) {
     look_at((a + b + c) / 3);
@@ -206,7 +170,7 @@ double SurfaceDistance::forward_distance(const HexMesh& mesh, int side, double l
   const bool suspect = d > options_.suspect_rel * limit && d <= limit;
   if (suspect && options_.suspect_levels > 0)
     look_at_parts(options_.mesh_levels + options_.suspect_levels);
-  return d;
+  return d > options_.negligible ? d : 0;
 }
 
 /// Brings the grid up to date. \return whether the side changed
@@ -226,6 +190,7 @@ bool SurfaceDistance::update_side(const HexMesh& mesh, int side) {
 void SurfaceDistance::make_room(int n_sides) {
   if (n_sides <= static_cast<int>(forward_.size())) return;
   forward_.resize(n_sides, 0);
+  near_.resize(n_sides, -1);
   nearest_side_.resize(n_sides);
 }
 
@@ -253,10 +218,11 @@ double SurfaceDistance::after_change(const HexMesh& mesh, std::span<const CellHa
 
 double SurfaceDistance::update(const HexMesh& mesh, const std::vector<int>& changed, double limit) {
   too_far_at_.reset();
-  VertexAndEdgeCache cache(reference_);
+  of_vertices_.begin_look();
+  of_edges_.begin_look();
   for (int side : changed) {
     if (!grid_.contains(side)) continue;
-    forward_[side] = forward_distance(mesh, side, limit, cache);
+    forward_[side] = forward_distance(mesh, side, limit);
     if (forward_[side] > limit) {
       given_up_ = true;
       too_far_at_ = grid_.centre(side);
@@ -279,7 +245,8 @@ double SurfaceDistance::update_samples(const std::vector<int>& changed, double l
     const QuadGrid::Nearest nearest = grid_.nearest(samples_[sample], guess, options_.negligible);
     sample_undo_.push_back({sample, side, backward_[sample]});
     nearest_side_.move(sample, nearest.id);
-    backward_[sample] = std::sqrt(nearest.squared_distance);
+    const double d = std::sqrt(nearest.squared_distance);
+    backward_[sample] = d > options_.negligible ? d : 0;
     if (backward_[sample] > limit) {
       given_up_ = true;
       too_far_at_ = samples_[sample];

@@ -14,6 +14,7 @@
 #include <span>
 #include <vector>
 
+#include "optimize/known_distances.h"
 #include "optimize/quad_grid.h"
 #include "optimize/reference_surface.h"
 #include "optimize/sample_lists.h"
@@ -29,16 +30,14 @@ struct SurfaceDistanceOptions {
   int reference_levels = 0;  ///< ≥ 0, subdivisions of a triangle of the reference
   int suspect_levels = 2;    ///< ≥ 0, more of these for a side whose samples come near the limit
   double suspect_rel = 0.5;  ///< (0, 1], of the limit: how near that is
-  /// ≥ 0, model units; distances up to it are not told apart, which saves most of the search for
-  /// closest points: any number from the distance to this stands for one
-  double negligible = 0;
+  double negligible = 0;  ///< ≥ 0, model units; distances up to it count as 0, which is found fast
 };
 
 /// Holds, for every boundary side of the mesh, its samples' largest distance to the reference, and
 /// for every sample of the reference the nearest side. A change recomputes the sides it moved, and
 /// the samples whose nearest side moved or went away. A sample whose nearest side stays keeps its
-/// distance, even if another side has come nearer, and one within SurfaceDistanceOptions::negligible
-/// of a side need not know a nearer one: the result is never below the truth on the samples.
+/// distance, even if another side has come nearer: the result is never below the truth on the
+/// samples, but for what is negligible (SurfaceDistanceOptions).
 class SurfaceDistance {
  public:
   SurfaceDistance(const HexMesh& mesh, const ReferenceSurface& reference,
@@ -86,7 +85,6 @@ class SurfaceDistance {
     int sample, side;
     double distance;
   };
-  class VertexAndEdgeCache;
 
   /// Where a triangle of the reference has its samples, beside those of its corners.
   struct TriangleSamples {
@@ -101,8 +99,7 @@ class SurfaceDistance {
   bool update_side(const HexMesh& mesh, int side);
   int levels_for(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                  const Eigen::Vector3d& c) const;
-  double forward_distance(const HexMesh& mesh, int side, double limit,
-                          VertexAndEdgeCache& cache) const;
+  double forward_distance(const HexMesh& mesh, int side, double limit);
   double update(const HexMesh& mesh, const std::vector<int>& changed, double limit);
   double update_samples(const std::vector<int>& changed, double limit);
 
@@ -114,8 +111,10 @@ class SurfaceDistance {
   std::vector<double> backward_;  // distance of every sample to its nearest side
   SampleLists nearest_side_;
   std::vector<TriangleSamples> samples_of_triangle_;
-  QuadGrid grid_;                // boundary sides by half-face
-  std::vector<double> forward_;  // by half-face; 0 where not on the boundary
+  QuadGrid grid_;                          // boundary sides by half-face
+  std::vector<double> forward_;            // by half-face; 0 where not on the boundary
+  KnownDistances of_vertices_, of_edges_;  // midpoints
+  std::vector<int> near_;                  // by half-face, a triangle close to its middle, or -1
   std::vector<SideUndo> side_undo_;
   std::vector<SampleUndo> sample_undo_;
   bool given_up_ = false;

@@ -81,6 +81,25 @@ TEST(Smooth, MoreCyclesGoOnWhereOneEnds) {
   }
 }
 
+TEST(Smooth, NeedsNoMeasureOfADistanceThatIsKnown) {
+  const HexMesh input = make_octree_like(Shape::blob, 8, 1);
+  const auto reference = make_reference_surface(input);
+  SmoothingOptions options = {.local_trials = 20};
+  HexMesh measured = input, told = input;
+  const SmoothingReport of_measured = smooth(measured, reference, options);
+  options.initial_hausdorff_rel = options.hausdorff_limit_rel;
+  const SmoothingReport of_told = smooth(told, reference, options);
+  EXPECT_EQ(points_of(told), points_of(measured));
+  EXPECT_EQ(of_told.hausdorff_rel, of_measured.hausdorff_rel);
+  EXPECT_EQ(of_told.initial_hausdorff_rel, options.hausdorff_limit_rel);
+
+  options.cycles = 1;
+  std::stop_source source;
+  source.request_stop();  // nothing is done: what is told of the mesh is still the truth
+  options.stop = source.get_token();
+  EXPECT_EQ(smooth(told, reference, options).hausdorff_rel, of_measured.hausdorff_rel);
+}
+
 TEST(Smooth, WorksWithEveryEnergyAndNeverInverts) {
   for (const Energy& energy : all_energies()) {
     HexMesh mesh = make_octree_like(Shape::blob, 8, 1);
@@ -118,6 +137,7 @@ TEST(Smooth, TakesAnEmptyMeshAndRefusesBadOptions) {
   EXPECT_EQ(smooth(mesh, reference).trials, 0);
   EXPECT_THROW(smooth(box, reference, {.hausdorff_limit_rel = 0}), InputError);
   EXPECT_THROW(smooth(box, reference, {.cycles = 0}), InputError);
+  EXPECT_THROW(smooth(box, reference, {.initial_hausdorff_rel = -1}), InputError);
 }
 
 }  // namespace

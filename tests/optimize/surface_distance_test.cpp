@@ -50,6 +50,35 @@ TEST(SurfaceDistance, IsConservativeAndCloseToExactThroughRandomChanges) {
   }
 }
 
+TEST(SurfaceDistance, WhatIsNegligibleCountsAsZeroWhereverItWasLookedForFirst) {
+  HexMesh mesh = make_octree_like(Shape::blob, 10, 1);
+  const auto reference = make_reference_surface(mesh);
+  constexpr double kNegligible = 0.015;
+  const SurfaceDistanceOptions options = {.negligible = kNegligible};
+  SurfaceDistance kept(mesh, reference, options);
+  Random random(7);
+  int zero = 0, exact = 0;
+  for (int i = 0; i < 20; ++i) {
+    dent(mesh, random);
+    kept.after_change(mesh);
+    kept.commit();
+    const SurfaceDistance all(mesh, reference), anew(mesh, reference, options);
+    for (HalfFaceHandle hf : mesh.boundary_halffaces()) {
+      const double d = kept.distance_at(hf);
+      EXPECT_TRUE(d == 0 || d > kNegligible);
+      (d == 0 ? zero : exact)++;
+    }
+    EXPECT_NEAR(kept.forward(), all.forward() > kNegligible ? all.forward() : 0, kRounding);
+    EXPECT_EQ(kept.forward(), anew.forward());
+    EXPECT_GE(kept.backward(), anew.backward() - kRounding);
+    if (all.backward() > kNegligible) {
+      EXPECT_NEAR(anew.backward(), all.backward(), kRounding);
+    }
+  }
+  EXPECT_GT(zero, 0);
+  EXPECT_GT(exact, 0);
+}
+
 TEST(SurfaceDistance, LimitsToTouchedCellsWithTheSameResult) {
   HexMesh mesh = make_ball(6);
   const auto reference = make_reference_surface(mesh);
