@@ -30,7 +30,7 @@ struct BoldTrials {
   bool wanted = true;
   double max_angle_deg = 360;    ///< as in ValenceLimits
   int max_interior_valence = 8;  ///< > 2, as in ValenceLimits; what it unlocks may lower it again
-  double min_scaled_jacobian = 0.3;    ///< as in SimplifyOptions
+  double min_scaled_jacobian = 0.4;    ///< as in SimplifyOptions
   double mean_scaled_jacobian = 0.85;  ///< as in SimplifyOptions
   int splits_per_trial = 12;           ///< as in SimplifyOptions
 };
@@ -58,7 +58,8 @@ struct SimplifyOptions {
   int smoothing_trials = 50;    ///< >= 0, passes over the neighbourhoods of the worst cells then
   double give_up_factor = 1.5;  ///< >= 1; half relaxed and so many limits away, a trial ends
   /// >= 0, sheets that a collapse may split where it leaves the surface too far away, two a layer and
-  /// two more at most; H stays under 1.1 times the target, or what it was before the collapse
+  /// two more at most; H stays under 1.1 times the target, or what it was before the collapse. Trials
+  /// that may split are also given more iterations to reach the floors of quality
   int splits_per_trial = 0;
   double max_chord_deviation = 0.9;  ///< > 0, D(c) / 3k of a chord that is tried
   ValenceLimits valence = {};

@@ -55,28 +55,21 @@ class RegionRelaxation {
     // Where it failed first: what splits have left elsewhere is not the cause.
     RegionResult failed = {
         refusal, refusal == Refusal::hausdorff ? context_.distance.too_far_at() : worst_cell_};
-    if (refusal != Refusal::hausdorff || options_.splits_per_trial == 0) return failed;
+    if (refusal != Refusal::hausdorff || !is_thorough()) return failed;
     return split_until_near() ? RegionResult{} : failed;
   }
 
  private:
-  // What half a parametrization must have reached of the floors for the other half to be worth its
-  // time.
-  static constexpr double kHalfway = 0.5;
-  static constexpr double kHalfwayMean = 0.03;
-
   // In two parts, so that what ends far off the surface is given up early.
   Refusal relax() {
-    // Fitting asks for several closest points a quadrilateral; it matters in the end only.
-    const int all = options_.parametrization.max_iterations, first = std::min(1, all);
-    const Refusal early = move(first, SurfaceTreatment::project, kHalfway, 1 - kHalfwayMean);
+    const Refusal early = move_halfway();
     if (early != Refusal::none) return early;
     const double far = options_.give_up_factor * context_.distance_limit;
     const double halfway = distance(far);
     if (halfway > far) return Refusal::hausdorff;
     const SurfaceTreatment wanted = options_.parametrization.surface.treatment;
     Transaction second(context_.mesh);
-    const Refusal refusal = finish(std::max(1, all - first), wanted);
+    const Refusal refusal = finish(iterations_left(), wanted);
     const bool was_near = refusal == Refusal::hausdorff && halfway <= context_.distance_limit;
     if (!was_near || wanted == SurfaceTreatment::project) {
       second.commit();
@@ -84,7 +77,7 @@ class RegionRelaxation {
     }
     // Where sharp edges run across the quadrilaterals, fitting them does harm.
     second.rollback();
-    return finish(std::max(1, all - first), SurfaceTreatment::project);
+    return finish(iterations_left(), SurfaceTreatment::project);
   }
 
   // A collapse leaves the cells beside it long, and a long side strays from a curved surface: its
@@ -112,11 +105,23 @@ class RegionRelaxation {
   }
 
   Refusal relax_after_split() {
-    const int all = options_.parametrization.max_iterations, first = std::min(1, all);
-    const Refusal early = move(first, SurfaceTreatment::project, kHalfway, 1 - kHalfwayMean);
+    const Refusal early = move_halfway();
     if (early != Refusal::none) return early;
-    return finish(std::max(1, all - first), options_.parametrization.surface.treatment);
+    return finish(iterations_left(), options_.parametrization.surface.treatment);
   }
+
+  // Ends with a refusal where the floors are so far off that the iterations left are not worth their
+  // time. What a thorough trial changes at once may be so much that one iteration says little.
+  Refusal move_halfway() {
+    const double share = is_thorough() ? 0.25 : 0.5, share_of_mean = is_thorough() ? 0.94 : 0.97;
+    // Fitting asks for several closest points a quadrilateral; it matters in the end only.
+    return move(1, SurfaceTreatment::project, share, share_of_mean);
+  }
+
+  int iterations_left() const { return std::max(1, options_.parametrization.max_iterations - 1); }
+
+  // As bold trials are: there are few of them.
+  bool is_thorough() const { return options_.splits_per_trial > 0; }
 
   void split(const DualSheet& sheet) {
     const SheetSplit split = split_sheet(context_.mesh, sheet);
@@ -146,7 +151,9 @@ class RegionRelaxation {
   }
 
   Refusal finish(int iterations, SurfaceTreatment treatment) {
-    const Refusal refusal = move(iterations, treatment, 1, 1);
+    Refusal refusal = move(iterations, treatment, 1, 1);
+    // The more a collapse has changed, the longer the quality takes to come back.
+    if (refusal == Refusal::quality && is_thorough()) refusal = move(iterations, treatment, 1, 1);
     if (refusal != Refusal::none) return refusal;
     return stays_on_surface(context_, touched_) ? Refusal::none : Refusal::hausdorff;
   }

@@ -21,7 +21,7 @@ constexpr int kSplitsAtOnce = 5;
 constexpr double kMostCells = 1.1;
 
 // The loop does not tell distances below this share of the limit apart.
-constexpr double kNegligible = 0.25;
+constexpr double kNegligible = 0.2;
 
 SimplifyOptions careful_options(SimplifyOptions options) {
   options.min_scaled_jacobian =

@@ -166,7 +166,7 @@ bool Run::attempt(const Proposal& proposal, TrialCounts& counts, Turn& turn) {
       failed.memory.failed_at(mesh_, plan, result.cause, step_);
     };
     remember(manner);
-    // Careful trials differ from ordinary ones in their floors only; those of bold trials are higher.
+    // Careful trials differ from ordinary ones in their floors only; bold trials ask for more quality.
     const bool has_another_chance = &manner == &careful_ && result.refusal == Refusal::quality;
     if (&manner == &careful_ && !has_another_chance) remember(ordinary_);
     if (&manner != &bold_ && is_of_shape(result.refusal)) remember(bold_);

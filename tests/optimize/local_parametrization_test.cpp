@@ -177,6 +177,30 @@ TEST(Parametrize, UntanglesMeshesWithATenthOfTheirInnerVerticesThrownAbout) {
   }
 }
 
+TEST(Parametrize, UntanglesWhatLiesRoundAFlatPlaceWithoutTheRest) {
+  const HexMesh good = make_grid({10, 10, 10});
+  const auto reference = make_reference_surface(good);
+  for (const double throw_by : {1.5, 30.0}) {
+    HexMesh wide = good;
+    for (VertexHandle v : wide.vertices()) {
+      if (wide.point(v) == Eigen::Vector3d(5, 5, 5))
+        wide.set_point(v, Eigen::Vector3d::Constant(5 + throw_by));
+    }
+    HexMesh narrow = wide;
+    ParametrizationOptions options;
+    const ParametrizationReport of_wide = parametrize(wide, all_cells(wide), reference, options);
+    options.untangle_widely = false;
+    const ParametrizationReport of_narrow =
+        parametrize(narrow, all_cells(narrow), reference, options);
+    EXPECT_TRUE(of_narrow.untangled);
+    if (of_narrow.valid()) {
+      EXPECT_EQ(points_of(narrow), points_of(wide));
+    }
+    EXPECT_TRUE(of_wide.valid() || !of_narrow.valid());
+    EXPECT_TRUE(of_narrow.valid() || throw_by > 2);
+  }
+}
+
 TEST(Parametrize, ReportsWhatItCouldNotRepair) {
   HexMesh mesh = make_grid({3, 3, 3});
   const auto reference = make_reference_surface(mesh);

@@ -36,6 +36,18 @@ Refusal refusal_of_sheet(const HexMesh& mesh, const Eigen::Vector3d& a, const Ei
                           vertex_at(mesh, b.x(), b.y(), b.z()));
 }
 
+TEST(Refusal, IsOfConnectivityOrOfGeometryOrNeither) {
+  int of_shape = 0;
+  for (int i = 0; i < kRefusals; ++i) {
+    const auto r = static_cast<Refusal>(i);
+    EXPECT_FALSE(is_of_connectivity(r) && is_geometric(r)) << name(r);
+    EXPECT_TRUE(!is_of_shape(r) || is_geometric(r)) << name(r);
+    of_shape += is_of_shape(r);
+  }
+  EXPECT_EQ(of_shape, 2);
+  EXPECT_FALSE(is_of_shape(Refusal::hausdorff));  // more cells may help
+}
+
 TEST(Refusal, NothingLeftIsVanishing) {
   EXPECT_EQ(refusal_of_sheet(make_grid({2, 2, 2}), {0, 0, 0}, {1, 0, 0}), Refusal::vanishing);
 }
