@@ -66,8 +66,8 @@ TEST(SimplifySlow, BoldTrialsTakesLayersUnderTheSurface) {
   without.bold.wanted = false;
   const auto reports = simplify_by_each<2>({without, with});
   EXPECT_LT(reports[1].after.components, reports[0].after.components);
-  EXPECT_GE(reports[1].after.min_scaled_jacobian,
-            std::min(BoldTrials().min_scaled_jacobian, reports[0].after.min_scaled_jacobian));
+  // What bold trials unlock may be collapsed by ordinary ones, whose floor is lower.
+  EXPECT_GE(reports[1].after.min_scaled_jacobian, with.min_scaled_jacobian);
 }
 
 TEST(SimplifySlow, TorusKeepsGenusOne) {
