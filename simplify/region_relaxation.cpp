@@ -113,7 +113,7 @@ class RegionRelaxation {
   // Ends with a refusal where the floors are so far off that the iterations left are not worth their
   // time. What a thorough trial changes at once may be so much that one iteration says little.
   Refusal move_halfway() {
-    const double share = is_thorough() ? 0.25 : 0.5, share_of_mean = is_thorough() ? 0.94 : 0.97;
+    const double share = is_thorough() ? 0.3 : 0.5, share_of_mean = is_thorough() ? 0.94 : 0.97;
     // Fitting asks for several closest points a quadrilateral; it matters in the end only.
     return move(1, SurfaceTreatment::project, share, share_of_mean);
   }
