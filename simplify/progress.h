@@ -41,8 +41,8 @@ struct SimplifyProgress {
   /// after the last.
   int components = 0;
   int input_components = 0;
-  /// Of the bounding-box diagonal, at the sampling of the loop, where all that is below a fifth of the
-  /// limit counts as 0.
+  /// Of the bounding-box diagonal, at the sampling of the loop, where what is far below the limit
+  /// counts as 0.
   double hausdorff_ratio = 0;
   double min_scaled_jacobian = 1, mean_scaled_jacobian = 1;
   double seconds = 0;  ///< since the start, earlier runs of a resumed one included
