@@ -108,6 +108,7 @@ void SurfaceDistance::add_sample(const Eigen::Vector3d& p) {
   samples_.push_back(p);
   backward_.push_back(0);
   nearest_side_.add_sample();
+  last_found_.push_back(-1);
 }
 
 double SurfaceDistance::forward() const {
@@ -137,9 +138,9 @@ double SurfaceDistance::distance_at(HalfFaceHandle hf) const {
   return d;
 }
 
-double SurfaceDistance::forward_distance(const HexMesh& mesh, int side, double limit) {
+double SurfaceDistance::forward_distance(const HexMesh& mesh, int side, const QuadPoints& q,
+                                         double limit) {
   const HalfFaceHandle hf(side);
-  const QuadPoints& q = grid_.points(side);
   const auto vertices = mesh.vertices(hf);
   const auto edges = mesh.edges(hf);
   double d = 0;
@@ -173,18 +174,22 @@ double SurfaceDistance::forward_distance(const HexMesh& mesh, int side, double l
   return d > options_.negligible ? d : 0;
 }
 
-/// Brings the grid up to date. \return whether the side changed
-bool SurfaceDistance::update_side(const HexMesh& mesh, int side) {
+/// The grid is left as it is.
+void SurfaceDistance::note_if_changed(const HexMesh& mesh, int side, std::vector<int>& changed) {
   const bool before = grid_.contains(side), now = on_boundary(mesh, side);
-  if (!before && !now) return false;
-  QuadPoints points{};
-  if (now) points = points_of(mesh, HalfFaceHandle(side));
-  if (before && now && points == grid_.points(side)) return false;
+  if (!before && !now) return;
+  if (before && now && points_of(mesh, HalfFaceHandle(side)) == grid_.points(side)) return;
   side_undo_.push_back({side, before, before ? grid_.points(side) : QuadPoints{}, forward_[side]});
-  if (before) grid_.remove(side);
-  if (now) grid_.insert(side, points);
   forward_[side] = 0;
-  return true;
+  changed.push_back(side);
+}
+
+void SurfaceDistance::update_grid(const HexMesh& mesh, const std::vector<int>& changed) {
+  for (int side : changed) {
+    if (grid_.contains(side)) grid_.remove(side);
+    if (on_boundary(mesh, side)) grid_.insert(side, points_of(mesh, HalfFaceHandle(side)));
+  }
+  n_in_grid_ = side_undo_.size();
 }
 
 void SurfaceDistance::make_room(int n_sides) {
@@ -198,9 +203,7 @@ double SurfaceDistance::after_change(const HexMesh& mesh, double limit) {
   const int n = std::max<int>(6 * mesh.cell_slots(), static_cast<int>(forward_.size()));
   make_room(n);
   std::vector<int> changed;
-  for (int side = 0; side < n; ++side) {
-    if (update_side(mesh, side)) changed.push_back(side);
-  }
+  for (int side = 0; side < n; ++side) note_if_changed(mesh, side, changed);
   return update(mesh, changed, limit);
 }
 
@@ -209,9 +212,7 @@ double SurfaceDistance::after_change(const HexMesh& mesh, std::span<const CellHa
   make_room(6 * mesh.cell_slots());
   std::vector<int> changed;
   for (CellHandle c : touched) {
-    for (int side = 6 * c.idx; side < 6 * c.idx + 6; ++side) {
-      if (update_side(mesh, side)) changed.push_back(side);
-    }
+    for (int side = 6 * c.idx; side < 6 * c.idx + 6; ++side) note_if_changed(mesh, side, changed);
   }
   return update(mesh, changed, limit);
 }
@@ -221,14 +222,16 @@ double SurfaceDistance::update(const HexMesh& mesh, const std::vector<int>& chan
   of_vertices_.begin_look();
   of_edges_.begin_look();
   for (int side : changed) {
-    if (!grid_.contains(side)) continue;
-    forward_[side] = forward_distance(mesh, side, limit);
+    if (!on_boundary(mesh, side)) continue;
+    const QuadPoints q = points_of(mesh, HalfFaceHandle(side));
+    forward_[side] = forward_distance(mesh, side, q, limit);
     if (forward_[side] > limit) {
       given_up_ = true;
-      too_far_at_ = grid_.centre(side);
+      too_far_at_ = (q[0] + q[1] + q[2] + q[3]) / 4;
       return forward_[side];
     }
   }
+  update_grid(mesh, changed);  // after the look that ends most of those that are given up
   const double worst = update_samples(changed, limit);
   return given_up_ ? worst : distance();
 }
@@ -238,11 +241,15 @@ double SurfaceDistance::update_samples(const std::vector<int>& changed, double l
   const auto take = [&](int sample) { stale.push_back(sample); };
   nearest_side_.for_each(-1, take);
   for (int side : changed) nearest_side_.for_each(side, take);
-  std::sort(stale.begin(), stale.end());  // neighbors: a good guess for the next
+  std::sort(stale.begin(), stale.end());  // neighbors follow each other
+  int beside = -1;                        // what was found for the one before
   for (int sample : stale) {
     const int side = nearest_side_.side(sample);
-    const int guess = side >= 0 && grid_.contains(side) ? side : -1;
+    const auto is_there = [&](int s) { return s >= 0 && grid_.contains(s); };
+    int& last = last_found_[sample];
+    const int guess = is_there(side) ? side : is_there(last) ? last : beside;
     const QuadGrid::Nearest nearest = grid_.nearest(samples_[sample], guess, options_.negligible);
+    last = beside = nearest.id;
     sample_undo_.push_back({sample, side, backward_[sample]});
     nearest_side_.move(sample, nearest.id);
     const double d = std::sqrt(nearest.squared_distance);
@@ -256,19 +263,30 @@ double SurfaceDistance::update_samples(const std::vector<int>& changed, double l
   return 0;
 }
 
+double SurfaceDistance::distance_of_change() const {
+  double d = 0;
+  for (const SideUndo& u : side_undo_) d = std::max(d, forward_[u.side]);
+  for (const SampleUndo& u : sample_undo_) d = std::max(d, backward_[u.sample]);
+  return d;
+}
+
 void SurfaceDistance::commit() {
   if (given_up_)
     throw InputError("a change whose distance was not computed to the end was committed");
   side_undo_.clear();
   sample_undo_.clear();
+  n_in_grid_ = 0;
 }
 
 void SurfaceDistance::rollback() {
-  for (auto it = side_undo_.rbegin(); it != side_undo_.rend(); ++it) {
-    if (grid_.contains(it->side)) grid_.remove(it->side);
-    if (it->present) grid_.insert(it->side, it->points);
-    forward_[it->side] = it->forward;
+  for (std::size_t i = side_undo_.size(); i-- > 0;) {
+    const SideUndo& undo = side_undo_[i];
+    forward_[undo.side] = undo.forward;
+    if (i >= n_in_grid_) continue;
+    if (grid_.contains(undo.side)) grid_.remove(undo.side);
+    if (undo.present) grid_.insert(undo.side, undo.points);
   }
+  n_in_grid_ = 0;
   for (auto it = sample_undo_.rbegin(); it != sample_undo_.rend(); ++it) {
     nearest_side_.move(it->sample, it->side);
     backward_[it->sample] = it->distance;

@@ -60,6 +60,8 @@ class SurfaceDistance {
   /// The same where only sides of these cells, alive or deleted, can have changed.
   double after_change(const HexMesh& mesh, std::span<const CellHandle> touched,
                       double limit = std::numeric_limits<double>::infinity());
+  /// Of what changed since the last commit() alone, model units; 0 if nothing did.
+  double distance_of_change() const;
   /// Whether what changed since the last commit() stays within `limit` (model units) also between the
   /// samples of the options: looks as closely as is_within() (hausdorff.h), at the changed part only.
   /// \param skip_rel  sides and triangles all of whose samples are closer than this, in limits, are
@@ -96,10 +98,11 @@ class SurfaceDistance {
   void make_room(int n_sides);
   void make_samples(int levels);
   void add_sample(const Eigen::Vector3d& p);
-  bool update_side(const HexMesh& mesh, int side);
+  void note_if_changed(const HexMesh& mesh, int side, std::vector<int>& changed);
+  void update_grid(const HexMesh& mesh, const std::vector<int>& changed);
   int levels_for(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                  const Eigen::Vector3d& c) const;
-  double forward_distance(const HexMesh& mesh, int side, double limit);
+  double forward_distance(const HexMesh& mesh, int side, const QuadPoints& q, double limit);
   double update(const HexMesh& mesh, const std::vector<int>& changed, double limit);
   double update_samples(const std::vector<int>& changed, double limit);
 
@@ -110,12 +113,14 @@ class SurfaceDistance {
   std::vector<Eigen::Vector3d> samples_;
   std::vector<double> backward_;  // distance of every sample to its nearest side
   SampleLists nearest_side_;
+  std::vector<int> last_found_;  // side nearest to every sample the last time, which rollback keeps
   std::vector<TriangleSamples> samples_of_triangle_;
   QuadGrid grid_;                          // boundary sides by half-face
   std::vector<double> forward_;            // by half-face; 0 where not on the boundary
   KnownDistances of_vertices_, of_edges_;  // midpoints
   std::vector<int> near_;                  // by half-face, a triangle close to its middle, or -1
   std::vector<SideUndo> side_undo_;
+  std::size_t n_in_grid_ = 0;  // of these, from the first on, how many the grid knows of
   std::vector<SampleUndo> sample_undo_;
   bool given_up_ = false;
   std::optional<Eigen::Vector3d> too_far_at_;

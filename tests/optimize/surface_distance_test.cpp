@@ -179,6 +179,27 @@ TEST(SurfaceDistance, GivesUpOverTheLimitAndThenRefusesToCommit) {
   EXPECT_LT(d.distance(), kRounding);
 }
 
+TEST(SurfaceDistance, OfAChangeIsWithoutWhatWasThereBefore) {
+  HexMesh mesh = make_grid({4, 4, 4});
+  SurfaceDistance d(mesh, make_reference_surface(mesh));
+  const auto lift = [&](const Eigen::Vector3d& at, double by) {
+    for (VertexHandle v : mesh.vertices()) {
+      if (mesh.point(v) == at) mesh.set_point(v, at + Eigen::Vector3d(0, 0, by));
+    }
+  };
+  lift({1, 1, 4}, 0.2);
+  EXPECT_NEAR(d.after_change(mesh), 0.2, kRounding);
+  EXPECT_NEAR(d.distance_of_change(), 0.2, kRounding);
+  d.commit();
+  EXPECT_EQ(d.distance_of_change(), 0);
+  lift({3, 3, 0}, -0.1);
+  EXPECT_NEAR(d.after_change(mesh), 0.2, kRounding);
+  EXPECT_NEAR(d.distance_of_change(), 0.1, kRounding);
+  d.rollback();
+  EXPECT_EQ(d.distance_of_change(), 0);
+  EXPECT_NEAR(d.distance(), 0.2, kRounding);
+}
+
 TEST(SurfaceDistance, TellsWhereTheSurfaceIsFar) {
   HexMesh mesh = make_grid({3, 3, 3});
   SurfaceDistance d(mesh, make_reference_surface(mesh));
