@@ -123,6 +123,7 @@ void SheetSplitter::add_child(CellHandle parent, const LatticePoint& low,
   }
   const CellHandle child = mesh_.add_cell(corners);
   result_.cells.push_back(child);
+  result_.parents.push_back(parent);
   detail::carry(mesh_, parent, child);
   for (int k = 0; k < kHexEdges; ++k) {
     const int a = edge_axis(k);

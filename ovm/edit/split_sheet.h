@@ -30,6 +30,7 @@ struct SheetSplit {
   std::vector<SplitVertex> vertices;
   std::vector<CellHandle> removed;  ///< the cells split, no longer live
   std::vector<CellHandle> cells;    ///< their children
+  std::vector<CellHandle> parents;  ///< of each child, the cell it is a part of
 };
 
 /// Splits every cell of the sheet: in 2 where it is crossed once, in 4 where twice, in 8 where

@@ -42,6 +42,18 @@ TEST_P(EveryMeshFamily, SplitKeepsTheTopologyAndCountsAsPredicted) {
     const SheetSplit split = split_sheet(mesh, sheet);
     EXPECT_EQ(split.removed.size(), n_crossings.size());
     EXPECT_EQ(static_cast<int>(split.cells.size()), n_children);
+    ASSERT_EQ(split.parents.size(), split.cells.size());
+    std::map<CellHandle, int> n_of_parent;
+    for (std::size_t i = 0; i < split.cells.size(); ++i) {
+      ++n_of_parent[split.parents[i]];
+      const auto corners = mesh_.vertices(split.parents[i]);
+      const auto is_corner = [&](VertexHandle v) {
+        return std::find(corners.begin(), corners.end(), v) != corners.end();
+      };
+      const auto own = mesh.vertices(split.cells[i]);
+      EXPECT_TRUE(std::any_of(own.begin(), own.end(), is_corner));
+    }
+    for (const auto& [c, n] : n_crossings) EXPECT_EQ(n_of_parent[c], 1 << n);
     EXPECT_EQ(mesh.n_cells(), mesh_.n_cells() - static_cast<int>(n_crossings.size()) + n_children);
     EXPECT_EQ(mesh.n_vertices(), mesh_.n_vertices() + static_cast<int>(split.vertices.size()));
     EXPECT_THAT(check_topology(mesh), testing::IsEmpty());
