@@ -54,7 +54,9 @@ Json to_json(const BoldTrials& r) {
           {"max_interior_valence", r.max_interior_valence},
           {"min_scaled_jacobian", r.min_scaled_jacobian},
           {"mean_scaled_jacobian", r.mean_scaled_jacobian},
-          {"splits_per_trial", r.splits_per_trial}};
+          {"splits_per_trial", r.splits_per_trial},
+          {"merged_give_up_factor", r.merged_give_up_factor},
+          {"max_chord_deviation", r.max_chord_deviation}};
 }
 
 Json to_json(const ParametrizationOptions& p) {
@@ -139,6 +141,7 @@ Json lasting_options(const SimplifyOptions& o) {
           {"target_hexahedra_rel", o.target_hexahedra_rel},
           {"rings", o.rings},
           {"give_up_factor", o.give_up_factor},
+          {"merged_give_up_factor", o.merged_give_up_factor},
           {"splits_per_trial", o.splits_per_trial},
           {"max_chord_deviation", o.max_chord_deviation},
           {"valence", to_json(o.valence)},

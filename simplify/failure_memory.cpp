@@ -1,6 +1,7 @@
 #include "simplify/failure_memory.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "simplify/hash.h"
 
@@ -100,7 +101,24 @@ bool FailureMemory::has_cause(const HexMesh& mesh, const CollapsePlan& plan, int
   });
 }
 
+void FailureMemory::failed_with(const Outlook& outlook, Refusal refusal) {
+  // What is negligible counts as 0, wherever it is.
+  if (outlook.distance_rel > 0 && is_geometric(refusal))
+    outcomes_.insert({outlook.distance_rel, {outlook.least, refusal}});
+}
+
+Refusal FailureMemory::refusal_with(const Outlook& outlook) const {
+  constexpr double kSame = 1e-4;
+  const double d = outlook.distance_rel;
+  for (auto it = outcomes_.lower_bound(d - kSame); it != outcomes_.end() && it->first <= d + kSame;
+       ++it) {
+    if (std::abs(it->second.least - outlook.least) <= kSame) return it->second.refusal;
+  }
+  return Refusal::none;
+}
+
 void FailureMemory::forget_all() {
+  outcomes_.clear();
   failures_.clear();
   causes_.clear();
 }

@@ -3,12 +3,14 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <span>
 #include <unordered_map>
 #include <vector>
 
 #include "simplify/candidate_key.h"
 #include "simplify/collapse_plan.h"
+#include "simplify/trial.h"
 
 namespace hexweft {
 
@@ -28,6 +30,12 @@ class FailureMemory {
                  int step);
   /// Whether the plan has the cause of a failure that waits.
   bool has_cause(const HexMesh& mesh, const CollapsePlan& plan, int step, bool patient) const;
+
+  /// \param outlook  of a trial that failed for its geometry
+  void failed_with(const Outlook& outlook, Refusal refusal);
+  /// What a trial failed by whose outlook was all but the same, or Refusal::none. It was of the same
+  /// merge: where sheets were split beside it, its key has changed and its chances have not.
+  Refusal refusal_with(const Outlook& outlook) const;
 
   void forget_all();
 
@@ -49,6 +57,12 @@ class FailureMemory {
     Waiting waiting;
   };
 
+  struct Outcome {
+    double least;
+    Refusal refusal;
+  };
+
+  std::multimap<double, Outcome> outcomes_;                     // by Outlook::distance_rel
   std::unordered_map<std::size_t, Failure> failures_;           // by CandidateKey::itself
   std::unordered_map<std::size_t, std::vector<Cause>> causes_;  // by the least of their groups
 };

@@ -42,7 +42,10 @@ void validate(const SimplifyOptions& o) {
   expect(o.rings > 0, "rings", o.rings, "> 0");
   expect(o.smoothing_trials >= 0, "smoothing_trials", o.smoothing_trials, ">= 0");
   expect(o.give_up_factor >= 1, "give_up_factor", o.give_up_factor, ">= 1");
-  expect(o.max_chord_deviation > 0, "max_chord_deviation", o.max_chord_deviation, "> 0");
+  for (const double factor : {o.merged_give_up_factor, o.bold.merged_give_up_factor})
+    expect(factor >= 1, "merged_give_up_factor", factor, ">= 1");
+  for (const double deviation : {o.max_chord_deviation, o.bold.max_chord_deviation})
+    expect(deviation > 0, "max_chord_deviation", deviation, "> 0");
   expect(o.max_failed_trials > 0, "max_failed_trials", o.max_failed_trials, "> 0");
   if (o.target_rate) {
     expect(*o.target_rate >= 0 && *o.target_rate <= 1, "target_rate", *o.target_rate, "[0, 1]");

@@ -33,6 +33,8 @@ struct BoldTrials {
   double min_scaled_jacobian = 0.4;    ///< as in SimplifyOptions
   double mean_scaled_jacobian = 0.85;  ///< as in SimplifyOptions
   int splits_per_trial = 12;           ///< as in SimplifyOptions
+  double merged_give_up_factor = 4;    ///< as in SimplifyOptions
+  double max_chord_deviation = 1.2;    ///< as in SimplifyOptions, where that is not higher
 };
 
 /// When to stop simplifying and what to preserve.
@@ -47,7 +49,7 @@ struct SimplifyOptions {
                                       ///< and what it found there
   double mean_scaled_jacobian = 0.7;  ///< [0, 1); the same for the mean over the region
   double target_hexahedra_rel = 1.0;  ///< > 0, of the input's count; below it sheets are refined
-  /// > 0, rings of cells that move round the collapse of a layer; round that of several, twice as many
+  /// > 0, rings of cells that move round the collapse of a layer; round that of several two more
   int rings = 3;
   /// > 0, runs from the input, of which the outcome of the fewest components is taken (attempts.h)
   int attempts = 1;
@@ -57,6 +59,7 @@ struct SimplifyOptions {
   bool smooth = true;           ///< global smoothing at the end
   int smoothing_trials = 50;    ///< >= 0, passes over the neighbourhoods of the worst cells then
   double give_up_factor = 1.5;  ///< >= 1; half relaxed and so many limits away, a trial ends
+  double merged_give_up_factor = 2;  ///< >= 1; the same before anything has moved
   /// >= 0, sheets that a collapse may split where it leaves the surface too far away, two a layer and
   /// two more at most; H stays under 1.1 times the target, or what it was before the collapse. Trials
   /// that may split are also given more iterations to reach the floors of quality

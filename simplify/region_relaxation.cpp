@@ -1,6 +1,7 @@
 #include "simplify/region_relaxation.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "ovm/dual.h"
 #include "ovm/edit/split_sheet.h"
@@ -32,6 +33,11 @@ EdgeHandle longest_edge(const HexMesh& mesh, HalfFaceHandle side) {
 }
 
 class RegionRelaxation {
+  // Of the floors of quality.
+  struct Shares {
+    double of_least, of_mean;
+  };
+
  public:
   RegionRelaxation(TrialContext& context, const CollapsePlan& plan,
                    std::span<const VertexHandle> merged, const Quality& old,
@@ -41,7 +47,6 @@ class RegionRelaxation {
         width_(plan.width),
         most_cells_(std::max(context.mesh.n_cells() + static_cast<int>(plan.removed.size()),
                              context.most_cells)),
-        seeds_(merged.begin(), merged.end()),
         region_(cells_around(context.mesh, merged, rings_round(plan, options))),
         touched_(region_),
         least_(std::max(std::min(options.min_scaled_jacobian, old.least), 1e-3)),
@@ -85,7 +90,7 @@ class RegionRelaxation {
   // the cells.
   bool split_until_near() {
     // Of the limit, after so many splits: what is farther hardly ever comes near with more of them.
-    const auto hopeless = [](int splits) { return 1 + 3.0 / (1 + splits * splits); };
+    const auto hopeless = [](int splits) { return 1 + 2.2 / (1 + splits * splits); };
     constexpr int kSlow = 3;  // splits that need not help at once
     HexMesh& mesh = context_.mesh;
     double last = 0;  // distance, before the last split
@@ -104,8 +109,9 @@ class RegionRelaxation {
     return false;
   }
 
+  // What a split changes is little: quality that is far off now stays so.
   Refusal relax_after_split() {
-    const Refusal early = move_halfway();
+    const Refusal early = move(1, SurfaceTreatment::project, {0.5, 0.98});
     if (early != Refusal::none) return early;
     return finish(iterations_left(), options_.parametrization.surface.treatment);
   }
@@ -113,9 +119,9 @@ class RegionRelaxation {
   // Ends with a refusal where the floors are so far off that the iterations left are not worth their
   // time. What a thorough trial changes at once may be so much that one iteration says little.
   Refusal move_halfway() {
-    const double share = is_thorough() ? 0.3 : 0.5, share_of_mean = is_thorough() ? 0.94 : 0.97;
+    const Shares shares = is_thorough() ? Shares{0.3, 0.94} : Shares{0.5, 0.97};
     // Fitting asks for several closest points a quadrilateral; it matters in the end only.
-    return move(1, SurfaceTreatment::project, share, share_of_mean);
+    return move(1, SurfaceTreatment::project, shares);
   }
 
   int iterations_left() const { return std::max(1, options_.parametrization.max_iterations - 1); }
@@ -123,37 +129,54 @@ class RegionRelaxation {
   // As bold trials are: there are few of them.
   bool is_thorough() const { return options_.splits_per_trial > 0; }
 
+  // What moves stays the same part of space: elsewhere the split itself does no harm.
   void split(const DualSheet& sheet) {
-    const SheetSplit split = split_sheet(context_.mesh, sheet);
-    for (const SplitVertex& v : split.vertices) seeds_.push_back(v.vertex);
-    region_ = cells_around(context_.mesh, seeds_, options_.rings);
+    HexMesh& mesh = context_.mesh;
+    const SheetSplit split = split_sheet(mesh, sheet);
+    std::vector<CellHandle> region;
+    for (std::size_t i = 0; i < split.cells.size(); ++i) {
+      if (std::binary_search(region_.begin(), region_.end(), split.parents[i]))
+        region.push_back(split.cells[i]);
+    }
+    std::copy_if(region_.begin(), region_.end(), std::back_inserter(region),
+                 [&](CellHandle c) { return mesh.is_live(c); });
+    std::sort(region.begin(), region.end());
+    region_ = std::move(region);
     touched_.insert(touched_.end(), split.removed.begin(), split.removed.end());
-    touched_.insert(touched_.end(), region_.begin(), region_.end());
+    touched_.insert(touched_.end(), split.cells.begin(), split.cells.end());
     std::sort(touched_.begin(), touched_.end());
     touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
   }
 
-  Refusal move(int iterations, SurfaceTreatment treatment, double share_of_least,
-               double share_of_mean) {
+  Refusal move(int iterations, SurfaceTreatment treatment, const Shares& shares = {1, 1}) {
     const StageTimer timer(context_.clock, Stage::parametrization);
     ParametrizationOptions p = options_.parametrization;
     p.max_iterations = iterations;
-    p.min_scaled_jacobian = share_of_least * least_;
+    p.min_scaled_jacobian = shares.of_least * least_;
     p.surface.treatment = treatment;
-    p.untangle_widely = false;  // as good as never helps
+    // A trial that needs more hardly ever succeeds in the end.
+    constexpr int kUntanglingRounds = 2;
+    p.untangling_rounds = std::min(p.untangling_rounds, kUntanglingRounds);
+    p.untangle_widely = false;
     const ParametrizationReport report = parametrize(context_.mesh, region_, context_.reference, p);
+    moved_ = {report.min_scaled_jacobian, report.mean_scaled_jacobian};
     worst_cell_.reset();
     if (!report.valid()) {
       worst_cell_ = place_of_worst_cell();
       return refusal_of(report.failure);
     }
-    return report.mean_scaled_jacobian < share_of_mean * mean_ ? Refusal::quality : Refusal::none;
+    return report.mean_scaled_jacobian < shares.of_mean * mean_ ? Refusal::quality : Refusal::none;
   }
 
   Refusal finish(int iterations, SurfaceTreatment treatment) {
-    Refusal refusal = move(iterations, treatment, 1, 1);
-    // The more a collapse has changed, the longer the quality takes to come back.
-    if (refusal == Refusal::quality && is_thorough()) refusal = move(iterations, treatment, 1, 1);
+    Refusal refusal = move(iterations, treatment);
+    // The more a collapse has changed, the longer the quality takes to come back; but what is not near
+    // now hardly ever does.
+    constexpr Shares kNear = {0.8, 0.99};
+    const bool is_near =
+        moved_.least > kNear.of_least * least_ && moved_.mean > kNear.of_mean * mean_;
+    if (refusal == Refusal::quality && is_thorough() && is_near)
+      refusal = move(iterations, treatment);
     if (refusal != Refusal::none) return refusal;
     return stays_on_surface(context_, touched_) ? Refusal::none : Refusal::hausdorff;
   }
@@ -188,18 +211,19 @@ class RegionRelaxation {
   const SimplifyOptions& options_;
   int width_;                                  // of what was collapsed, layers
   int most_cells_;                             // that the mesh may have
-  std::vector<VertexHandle> seeds_;            // of the region
   std::vector<CellHandle> region_;             // moves
   std::vector<CellHandle> touched_;            // moved, or gone
   double least_, mean_;                        // floors of the scaled Jacobian
+  Quality moved_;                              // of the region, after the last move
   std::optional<Eigen::Vector3d> worst_cell_;  // where the last move left it below the floor
 };
 
 }  // namespace
 
-// More rings for more layers meant the whole mesh for some, and no better results.
+// Still more for more layers gave no better results.
 int rings_round(const CollapsePlan& plan, const SimplifyOptions& options) {
-  return options.rings * std::min(plan.width, 2);
+  constexpr int kMoreForLayers = 2;
+  return options.rings + (plan.width > 1 ? kMoreForLayers : 0);
 }
 
 RegionResult relax_region(TrialContext& context, const CollapsePlan& plan,

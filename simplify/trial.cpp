@@ -79,9 +79,26 @@ std::vector<int> groups_near(const HexMesh& mesh, const CollapsePlan& plan,
   return near;
 }
 
+// Gives up looking at the distance where that is reason enough to give up the trial.
+Outlook outlook_after(TrialContext& context, const CollapsePlan& plan,
+                      std::span<const VertexHandle> left, double give_up_factor) {
+  const StageTimer timer(context.clock, Stage::distance);
+  std::vector<CellHandle> changed = cells_around(context.mesh, left, 1);
+  Outlook outlook;
+  outlook.least = measure_quality(context.mesh, changed).least;
+  changed.insert(changed.end(), plan.removed.begin(), plan.removed.end());
+  const double limit = give_up_factor * context.distance_limit;
+  const double d = context.distance.after_change(context.mesh, changed, limit);
+  outlook.distance_rel =
+      (d > limit ? d : context.distance.distance_of_change()) / context.distance_limit;
+  context.distance.rollback();
+  return outlook;
+}
+
 // Within an open transaction. If accepted, the distance is still to be committed, else it is as before.
 TrialResult collapse_and_relax(TrialContext& context, const SingularityGraph& graph,
-                               const CollapsePlan& plan, const SimplifyOptions& options) {
+                               const CollapsePlan& plan, const SimplifyOptions& options,
+                               const KnownFailure& known = {}) {
   HexMesh& mesh = context.mesh;
   TrialResult result;
   {
@@ -101,6 +118,16 @@ TrialResult collapse_and_relax(TrialContext& context, const SingularityGraph& gr
   const Quality old = measure_quality(mesh, before);
   const auto left = apply_plan(mesh, plan, *targets);
   result.refusal = check_topology_after(mesh, left, euler);
+  if (!result.accepted()) return result;
+
+  result.outlook = outlook_after(context, plan, left, options.merged_give_up_factor);
+  if (result.outlook->distance_rel > options.merged_give_up_factor) {
+    result.refusal = Refusal::hausdorff;
+    if (const auto& place = context.distance.too_far_at())
+      result.cause = groups_near(mesh, plan, *place);
+  } else if (known) {
+    result.refusal = known(*result.outlook);
+  }
   if (!result.accepted()) return result;
 
   const RegionResult relaxed = relax_region(context, plan, left, old, options);
@@ -221,9 +248,10 @@ Refusal check_structure(const TrialContext& context, std::size_t n_before, BaseC
 }
 
 TrialResult try_collapse_locally(TrialContext& context, const SingularityGraph& graph,
-                                 const CollapsePlan& plan, const SimplifyOptions& options) {
+                                 const CollapsePlan& plan, const SimplifyOptions& options,
+                                 const KnownFailure& known) {
   Transaction trial(context.mesh);
-  TrialResult result = collapse_and_relax(context, graph, plan, options);
+  TrialResult result = collapse_and_relax(context, graph, plan, options, known);
   if (result.accepted()) commit(context, trial);
   return result;
 }

@@ -2,6 +2,7 @@
 /// One attempt at a collapse: edit, parametrization, checks; kept or undone.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -40,8 +41,17 @@ struct Quality {
 };
 Quality measure_quality(const HexMesh& mesh, std::span<const CellHandle> cells);
 
+/// What a merge leaves before anything round it has moved: it settles most of what becomes of it.
+struct Outlook {
+  double distance_rel = 0;  ///< of the boundary sides that changed, limits
+  double least = 1;         ///< scaled Jacobian, of the cells at what was merged
+};
+/// Told of an outlook, what a trial with the same one failed by, or Refusal::none.
+using KnownFailure = std::function<Refusal(const Outlook&)>;
+
 struct TrialResult {
   Refusal refusal = Refusal::none;
+  std::optional<Outlook> outlook;  ///< if the trial came so far
   std::vector<int> cause;    ///< groups of the plan round where a geometric one was found, if known
   BaseComplex base_complex;  ///< of the new mesh if accepted by try_collapse(), else empty
   bool accepted() const { return refusal == Refusal::none; }
@@ -56,8 +66,10 @@ TrialResult try_collapse(TrialContext& context, const BaseComplex& bc, const Col
 /// for it with check_structure(), for several collapses at once, and must be able to undo them.
 /// \param graph  of the mesh; may be out of date beyond the cells at the plan's members, as may
 ///               TrialContext::labels
+/// \param known  ends the trial where it knows better, if not empty
 TrialResult try_collapse_locally(TrialContext& context, const SingularityGraph& graph,
-                                 const CollapsePlan& plan, const SimplifyOptions& options);
+                                 const CollapsePlan& plan, const SimplifyOptions& options,
+                                 const KnownFailure& known = {});
 
 /// Whether genus, parts and boundary surfaces are the input's and the base complex is one of cuboids,
 /// fewer than before.

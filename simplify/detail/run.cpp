@@ -38,6 +38,9 @@ SimplifyOptions bold_options(SimplifyOptions options) {
   options.min_scaled_jacobian = options.bold.min_scaled_jacobian;
   options.mean_scaled_jacobian = options.bold.mean_scaled_jacobian;
   options.splits_per_trial = options.bold.splits_per_trial;
+  options.merged_give_up_factor = options.bold.merged_give_up_factor;
+  options.max_chord_deviation =
+      std::max(options.max_chord_deviation, options.bold.max_chord_deviation);
   return options;
 }
 
@@ -90,8 +93,9 @@ SimplifyReport Run::run() {
   return report_;
 }
 
-void Run::loop() {
-  Manner* const in_turn[] = {&careful_, &ordinary_, &bold_};
+void Run::loop(bool boldly) {
+  Manner* const all[] = {&careful_, &ordinary_, &bold_};
+  const auto in_turn = std::span(all).first(boldly ? 3 : 2);
   do {
     collapse_while_possible(in_turn);
   } while (options_.peels && is_stuck() && peel_some(in_turn));
@@ -115,7 +119,7 @@ void Run::go_on_relaxed() {
     forget_failures();
     failed_in_a_row_ = 0;
     report_.stopped = StopReason::nothing_left;
-    loop();
+    loop(false);  // bold trials would fail again, and take most of the time
     if (report_.collapses() == before) break;
   }
 }

@@ -52,7 +52,7 @@ class Run {
   };
 
   // ---- The loop (run.cpp) ----
-  void loop();
+  void loop(bool boldly = true);
   void collapse_while_possible(std::span<Manner* const> in_turn);
   void go_on_relaxed();
   bool is_stuck();

@@ -1,5 +1,6 @@
 // The collapses of a run.
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "simplify/detail/round.h"
@@ -27,8 +28,9 @@ constexpr double kVerifyEvery = 0.5;
 // \return whether the loop should go on from the start
 bool Run::collapse_some(std::span<Manner* const> in_turn, bool patient) {
   know_base_complex();
+  const SimplifyOptions& widest = bold_.wanted ? bold_.options : options_;
   const CandidateQueues queues =
-      timed(Stage::ranking, [&] { return make_queues(mesh_, bc_, options_, options_.ranking); });
+      timed(Stage::ranking, [&] { return make_queues(mesh_, bc_, widest, options_.ranking); });
   const bool changed = any_changes_mesh(in_turn, patient, [&](Turn& turn) {
     collapse_sheets(queues, turn);
     if (turn.round.empty()) collapse_chords(queues, turn);
@@ -125,7 +127,12 @@ void Run::collapse_chords(const CandidateQueues& q, Turn& turn) {
         [&] { return plan_chord_collapse(mesh_, bc_, chord, terms.diagonal, q.sheets); },
         {.what = StepKind::chord, .kind = chord.closed ? "closed" : "open", .chord_terms = terms}};
   };
-  collapse_in_order(q.chord_queue, most, report_.chords, turn, propose);
+  std::vector<Candidate> queue;
+  std::copy_if(q.chord_queue.begin(), q.chord_queue.end(), std::back_inserter(queue),
+               [&](const Candidate& c) {
+                 return q.chord_terms[c.index].deviation <= turn.manner.options.max_chord_deviation;
+               });
+  collapse_in_order(queue, most, report_.chords, turn, propose);
 }
 
 void Run::collapse_peels(const std::vector<Peel>& peels, Turn& turn) {
@@ -156,7 +163,9 @@ bool Run::attempt(const Proposal& proposal, TrialCounts& counts, Turn& turn) {
   }
   const double begun = seconds();
   const TrialResult result = timed(Stage::trial, [&] {
-    return try_collapse_locally(context_, bc_.graph, plan, manner.options);
+    return try_collapse_locally(
+        context_, bc_.graph, plan, manner.options,
+        [&](const Outlook& outlook) { return manner.memory.refusal_with(outlook); });
   });
   counts.seconds[static_cast<int>(result.refusal)] += seconds() - begun;
   if (!result.accepted()) {
@@ -164,6 +173,7 @@ bool Run::attempt(const Proposal& proposal, TrialCounts& counts, Turn& turn) {
     const auto remember = [&](Manner& failed) {
       failed.memory.failed(key, result.refusal, step_);
       failed.memory.failed_at(mesh_, plan, result.cause, step_);
+      if (result.outlook) failed.memory.failed_with(*result.outlook, result.refusal);
     };
     remember(manner);
     // Careful trials differ from ordinary ones in their floors only; bold trials ask for more quality.

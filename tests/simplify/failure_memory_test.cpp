@@ -100,5 +100,29 @@ TEST_F(FailureMemoryTest, ACauseIsGoneWhenItsSurroundingsHaveChanged) {
   EXPECT_FALSE(memory.has_cause(mesh, longer, 1, true));
 }
 
+TEST_F(FailureMemoryTest, TheSameOutlookFailsByTheSame) {
+  const Outlook outlook = {.distance_rel = 1.2, .least = -0.3};
+  EXPECT_EQ(memory.refusal_with(outlook), Refusal::none);
+  memory.failed_with({.distance_rel = 1.2, .least = 0.3}, Refusal::quality);
+  EXPECT_EQ(memory.refusal_with(outlook), Refusal::none) << "other hexahedra";
+  memory.failed_with(outlook, Refusal::hausdorff);
+  EXPECT_EQ(memory.refusal_with(outlook), Refusal::hausdorff);
+  EXPECT_EQ(memory.refusal_with({.distance_rel = 1.2 + 1e-6, .least = -0.3 - 1e-6}),
+            Refusal::hausdorff);
+  EXPECT_EQ(memory.refusal_with({.distance_rel = 1.21, .least = -0.3}), Refusal::none);
+  EXPECT_EQ(memory.refusal_with({.distance_rel = 1.2, .least = -0.31}), Refusal::none);
+  memory.forget_all();
+  EXPECT_EQ(memory.refusal_with(outlook), Refusal::none);
+}
+
+TEST_F(FailureMemoryTest, OnlyGeometryIsKnownByItsOutlook) {
+  const Outlook outlook = {.distance_rel = 0.5, .least = 0.1};
+  memory.failed_with(outlook, Refusal::topology);
+  EXPECT_EQ(memory.refusal_with(outlook), Refusal::none);
+  // Distances that do not count are the same wherever they are.
+  memory.failed_with({.distance_rel = 0, .least = 0.1}, Refusal::quality);
+  EXPECT_EQ(memory.refusal_with({.distance_rel = 0, .least = 0.1}), Refusal::none);
+}
+
 }  // namespace
 }  // namespace hexweft

@@ -36,29 +36,32 @@ using O = SimplifyOptions;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 INSTANTIATE_TEST_SUITE_P(
     Options, EveryBadOption,
-    testing::Values(BadOption{"hausdorff_limit_rel", [](O& o) { o.hausdorff_limit_rel = 0; }},
-                    BadOption{"hausdorff_limit_rel", [](O& o) { o.hausdorff_limit_rel = 2; }},
-                    BadOption{"hausdorff_limit_rel", [](O& o) { o.hausdorff_limit_rel = kNaN; }},
-                    BadOption{"min_scaled_jacobian", [](O& o) { o.min_scaled_jacobian = -0.1; }},
-                    BadOption{"min_scaled_jacobian", [](O& o) { o.min_scaled_jacobian = 1; }},
-                    BadOption{"mean_scaled_jacobian", [](O& o) { o.mean_scaled_jacobian = 1; }},
-                    BadOption{"mean_scaled_jacobian", [](O& o) { o.mean_scaled_jacobian = kNaN; }},
-                    BadOption{"target_hexahedra_rel", [](O& o) { o.target_hexahedra_rel = 0; }},
-                    BadOption{"beta", [](O& o) { o.weights.beta = -1; }},
-                    BadOption{"angle_deg",
-                              [](O& o) {
-                                o.features = {FeatureMode::angle, 200};
-                              }},
-                    BadOption{"rings", [](O& o) { o.rings = 0; }},
-                    BadOption{"give_up_factor", [](O& o) { o.give_up_factor = 0.5; }},
-                    BadOption{"max_chord_deviation", [](O& o) { o.max_chord_deviation = -1; }},
-                    BadOption{"target_rate", [](O& o) { o.target_rate = 1.5; }},
-                    BadOption{"target_rate", [](O& o) { o.target_rate = -0.5; }},
-                    BadOption{"target_components", [](O& o) { o.target_components = 0; }},
-                    BadOption{"max_seconds", [](O& o) { o.max_seconds = 0; }},
-                    BadOption{"checkpoint_every_s", [](O& o) { o.checkpoint_every_s = kNaN; }},
-                    BadOption{"max_iterations",
-                              [](O& o) { o.parametrization.max_iterations = 0; }}));
+    testing::Values(
+        BadOption{"hausdorff_limit_rel", [](O& o) { o.hausdorff_limit_rel = 0; }},
+        BadOption{"hausdorff_limit_rel", [](O& o) { o.hausdorff_limit_rel = 2; }},
+        BadOption{"hausdorff_limit_rel", [](O& o) { o.hausdorff_limit_rel = kNaN; }},
+        BadOption{"min_scaled_jacobian", [](O& o) { o.min_scaled_jacobian = -0.1; }},
+        BadOption{"min_scaled_jacobian", [](O& o) { o.min_scaled_jacobian = 1; }},
+        BadOption{"mean_scaled_jacobian", [](O& o) { o.mean_scaled_jacobian = 1; }},
+        BadOption{"mean_scaled_jacobian", [](O& o) { o.mean_scaled_jacobian = kNaN; }},
+        BadOption{"target_hexahedra_rel", [](O& o) { o.target_hexahedra_rel = 0; }},
+        BadOption{"beta", [](O& o) { o.weights.beta = -1; }},
+        BadOption{"angle_deg",
+                  [](O& o) {
+                    o.features = {FeatureMode::angle, 200};
+                  }},
+        BadOption{"rings", [](O& o) { o.rings = 0; }},
+        BadOption{"give_up_factor", [](O& o) { o.give_up_factor = 0.5; }},
+        BadOption{"merged_give_up_factor", [](O& o) { o.merged_give_up_factor = 0; }},
+        BadOption{"merged_give_up_factor", [](O& o) { o.bold.merged_give_up_factor = kNaN; }},
+        BadOption{"max_chord_deviation", [](O& o) { o.max_chord_deviation = -1; }},
+        BadOption{"max_chord_deviation", [](O& o) { o.bold.max_chord_deviation = 0; }},
+        BadOption{"target_rate", [](O& o) { o.target_rate = 1.5; }},
+        BadOption{"target_rate", [](O& o) { o.target_rate = -0.5; }},
+        BadOption{"target_components", [](O& o) { o.target_components = 0; }},
+        BadOption{"max_seconds", [](O& o) { o.max_seconds = 0; }},
+        BadOption{"checkpoint_every_s", [](O& o) { o.checkpoint_every_s = kNaN; }},
+        BadOption{"max_iterations", [](O& o) { o.parametrization.max_iterations = 0; }}));
 
 TEST(Options, DefaultsAreValid) { EXPECT_NO_THROW(validate(SimplifyOptions())); }
 

@@ -66,12 +66,28 @@ TEST(SimplifySlow, BoldTrialsTakesLayersUnderTheSurface) {
   without.bold.wanted = false;
   const auto reports = simplify_by_each<2>({without, with});
   EXPECT_LT(reports[1].after.components, reports[0].after.components);
-  // What bold trials unlock may be collapsed by ordinary ones, whose floor is lower, unless it is not.
+  // No step goes below its floor, nor below what it found if that is less.
   EXPECT_GE(reports[1].after.min_scaled_jacobian, with.min_scaled_jacobian);
-  for (SimplifyOptions* o : {&without, &with}) o->min_scaled_jacobian = o->bold.min_scaled_jacobian;
-  const auto held = simplify_by_each<2>({without, with});
-  EXPECT_GE(held[1].after.min_scaled_jacobian,
-            std::min(BoldTrials().min_scaled_jacobian, held[0].after.min_scaled_jacobian));
+  with.min_scaled_jacobian = with.bold.min_scaled_jacobian;
+  const SimplifyReport held = simplify_well(make_solid("stepped-shaft", 20), with);
+  EXPECT_GE(held.after.min_scaled_jacobian,
+            std::min(with.min_scaled_jacobian, held.before.min_scaled_jacobian));
+}
+
+TEST(SimplifySlow, ChordsOfWideDeviationAreLeftToBoldTrials) {
+  const auto widest = [](bool bold) {
+    double deviation = 0;
+    SimplifyOptions options;
+    options.bold.wanted = bold;
+    options.observer = [&](const SimplifyProgress& p) {
+      if (p.chord_terms) deviation = std::max(deviation, p.chord_terms->deviation);
+    };
+    for (const auto solid : {"pieces", "thin-cap"}) simplify_well(make_solid(solid, 12), options);
+    return deviation;
+  };
+  EXPECT_LE(widest(false), SimplifyOptions().max_chord_deviation);
+  EXPECT_GT(widest(true), SimplifyOptions().max_chord_deviation);
+  EXPECT_LE(widest(true), BoldTrials().max_chord_deviation);
 }
 
 TEST(SimplifySlow, TorusKeepsGenusOne) {

@@ -97,6 +97,45 @@ TEST(Trial, ArmOfAnLIsTooFarFromTheInput) {
   EXPECT_GT(legal, 0);
 }
 
+TEST(Trial, OutlookIsWhatTheMergeLeaves) {
+  Bench b(make_l_shape(2));
+  SimplifyOptions any;
+  any.merged_give_up_factor = 1e6;
+  int seen = 0;
+  for (const Sheet& s : extract_sheets(b.bc)) {
+    const CollapsePlan plan = plan_sheet_collapse(b.mesh, b.bc, s);
+    Outlook told;
+    const MeshDump dump(b.mesh);
+    const DistanceState distance(b.distance);
+    const TrialResult result =
+        try_collapse_locally(b.context, b.bc.graph, plan, any, [&](const Outlook& outlook) {
+          told = outlook;
+          return Refusal::quality;
+        });
+    EXPECT_TRUE(MeshDump(b.mesh) == dump);
+    EXPECT_TRUE(DistanceState(b.distance) == distance);
+    if (!result.outlook) continue;
+    ++seen;
+    EXPECT_EQ(result.refusal, Refusal::quality) << "what is known ends the trial";
+    EXPECT_EQ(told.distance_rel, result.outlook->distance_rel);
+    EXPECT_EQ(told.least, result.outlook->least);
+    // The same by hand.
+    Transaction merge(b.mesh);
+    const auto targets = default_targets(b.mesh, b.bc.graph, plan);
+    const auto left = apply_plan(b.mesh, plan, targets);
+    EXPECT_EQ(told.least, measure_quality(b.mesh, cells_around(b.mesh, left, 1)).least);
+    const double d = b.distance.after_change(b.mesh);
+    EXPECT_NEAR(told.distance_rel * b.context.distance_limit, d, 1e-12 + 0.1 * d);
+    b.distance.rollback();
+    merge.rollback();
+    // An arm that goes leaves the surface much farther away than a trial could bring it back.
+    const TrialResult given_up = try_collapse_locally(b.context, b.bc.graph, plan, {});
+    EXPECT_EQ(given_up.refusal, Refusal::hausdorff);
+    EXPECT_GT(given_up.outlook->distance_rel, SimplifyOptions().merged_give_up_factor);
+  }
+  EXPECT_GT(seen, 0);
+}
+
 TEST(Trial, ArmOfAnLTakesCornersAlong) {
   Bench b(make_l_shape(2), 1.0, FeatureMode::automatic);
   int by_feature = 0;
