@@ -175,19 +175,22 @@ double SurfaceDistance::forward_distance(const HexMesh& mesh, int side, const Qu
 }
 
 /// The grid is left as it is.
-void SurfaceDistance::note_if_changed(const HexMesh& mesh, int side, std::vector<int>& changed) {
+void SurfaceDistance::note_if_changed(const HexMesh& mesh, int side,
+                                      std::vector<ChangedSide>& changed) {
   const bool before = grid_.contains(side), now = on_boundary(mesh, side);
   if (!before && !now) return;
-  if (before && now && points_of(mesh, HalfFaceHandle(side)) == grid_.points(side)) return;
+  QuadPoints points{};
+  if (now) points = points_of(mesh, HalfFaceHandle(side));
+  if (before && now && points == grid_.points(side)) return;
   side_undo_.push_back({side, before, before ? grid_.points(side) : QuadPoints{}, forward_[side]});
   forward_[side] = 0;
-  changed.push_back(side);
+  changed.push_back({side, now, points});
 }
 
-void SurfaceDistance::update_grid(const HexMesh& mesh, const std::vector<int>& changed) {
-  for (int side : changed) {
-    if (grid_.contains(side)) grid_.remove(side);
-    if (on_boundary(mesh, side)) grid_.insert(side, points_of(mesh, HalfFaceHandle(side)));
+void SurfaceDistance::update_grid(const std::vector<ChangedSide>& changed) {
+  for (const ChangedSide& c : changed) {
+    if (grid_.contains(c.side)) grid_.remove(c.side);
+    if (c.present) grid_.insert(c.side, c.points);
   }
   n_in_grid_ = side_undo_.size();
 }
@@ -202,7 +205,7 @@ void SurfaceDistance::make_room(int n_sides) {
 double SurfaceDistance::after_change(const HexMesh& mesh, double limit) {
   const int n = std::max<int>(6 * mesh.cell_slots(), static_cast<int>(forward_.size()));
   make_room(n);
-  std::vector<int> changed;
+  std::vector<ChangedSide> changed;
   for (int side = 0; side < n; ++side) note_if_changed(mesh, side, changed);
   return update(mesh, changed, limit);
 }
@@ -210,20 +213,20 @@ double SurfaceDistance::after_change(const HexMesh& mesh, double limit) {
 double SurfaceDistance::after_change(const HexMesh& mesh, std::span<const CellHandle> touched,
                                      double limit) {
   make_room(6 * mesh.cell_slots());
-  std::vector<int> changed;
+  std::vector<ChangedSide> changed;
   for (CellHandle c : touched) {
     for (int side = 6 * c.idx; side < 6 * c.idx + 6; ++side) note_if_changed(mesh, side, changed);
   }
   return update(mesh, changed, limit);
 }
 
-double SurfaceDistance::update(const HexMesh& mesh, const std::vector<int>& changed, double limit) {
+double SurfaceDistance::update(const HexMesh& mesh, const std::vector<ChangedSide>& changed,
+                               double limit) {
   too_far_at_.reset();
   of_vertices_.begin_look();
   of_edges_.begin_look();
-  for (int side : changed) {
-    if (!on_boundary(mesh, side)) continue;
-    const QuadPoints q = points_of(mesh, HalfFaceHandle(side));
+  for (const auto& [side, present, q] : changed) {
+    if (!present) continue;
     forward_[side] = forward_distance(mesh, side, q, limit);
     if (forward_[side] > limit) {
       given_up_ = true;
@@ -231,16 +234,16 @@ double SurfaceDistance::update(const HexMesh& mesh, const std::vector<int>& chan
       return forward_[side];
     }
   }
-  update_grid(mesh, changed);  // after the look that ends most of those that are given up
+  update_grid(changed);  // after the look that ends most of those that are given up
   const double worst = update_samples(changed, limit);
   return given_up_ ? worst : distance();
 }
 
-double SurfaceDistance::update_samples(const std::vector<int>& changed, double limit) {
+double SurfaceDistance::update_samples(const std::vector<ChangedSide>& changed, double limit) {
   std::vector<int> stale;
   const auto take = [&](int sample) { stale.push_back(sample); };
   nearest_side_.for_each(-1, take);
-  for (int side : changed) nearest_side_.for_each(side, take);
+  for (const ChangedSide& c : changed) nearest_side_.for_each(c.side, take);
   std::sort(stale.begin(), stale.end());  // neighbors follow each other
   int beside = -1;                        // what was found for the one before
   for (int sample : stale) {

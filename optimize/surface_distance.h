@@ -83,6 +83,11 @@ class SurfaceDistance {
     QuadPoints points;
     double forward;
   };
+  struct ChangedSide {
+    int side;
+    bool present;       // on the boundary as the mesh is now
+    QuadPoints points;  // now, if present
+  };
   struct SampleUndo {
     int sample, side;
     double distance;
@@ -98,13 +103,13 @@ class SurfaceDistance {
   void make_room(int n_sides);
   void make_samples(int levels);
   void add_sample(const Eigen::Vector3d& p);
-  void note_if_changed(const HexMesh& mesh, int side, std::vector<int>& changed);
-  void update_grid(const HexMesh& mesh, const std::vector<int>& changed);
+  void note_if_changed(const HexMesh& mesh, int side, std::vector<ChangedSide>& changed);
+  void update_grid(const std::vector<ChangedSide>& changed);
   int levels_for(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                  const Eigen::Vector3d& c) const;
   double forward_distance(const HexMesh& mesh, int side, const QuadPoints& q, double limit);
-  double update(const HexMesh& mesh, const std::vector<int>& changed, double limit);
-  double update_samples(const std::vector<int>& changed, double limit);
+  double update(const HexMesh& mesh, const std::vector<ChangedSide>& changed, double limit);
+  double update_samples(const std::vector<ChangedSide>& changed, double limit);
 
   ReferenceSurface reference_;
   SurfaceDistanceOptions options_;
