@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "optimize/closest_point.h"
 
@@ -46,45 +47,47 @@ void QuadGrid::for_each_cell(const Quad& quad, F&& visit) {
 }
 
 void QuadGrid::insert(int id, const QuadPoints& points) {
-  if (id >= static_cast<int>(quads_.size()))
-    quads_.resize(std::max<std::size_t>(id + 1, 2 * quads_.size()));
-  Quad& quad = quads_[id];
-  assert(!quad.present);
-  quad.points = points;
-  quad.centre = (points[0] + points[1] + points[2] + points[3]) / 4;
-  quad.box = box_of(points);
-  quad.present = true;
-  ++n_present_;
-  for_each_cell(quad, [id](std::vector<int>& c) { c.push_back(id); });
+  assert(!contains(id));
+  if (id >= static_cast<int>(slot_of_.size()))
+    slot_of_.resize(std::max<std::size_t>(id + 1, 2 * slot_of_.size()), -1);
+  if (free_.empty()) {
+    free_.push_back(static_cast<int>(quads_.size()));
+    quads_.emplace_back();
+  }
+  const int slot = slot_of_[id] = free_.back();
+  free_.pop_back();
+  const Eigen::Vector3d centre = (points[0] + points[1] + points[2] + points[3]) / 4;
+  quads_[slot] = {points, centre, box_of(points), id};
+  for_each_cell(quads_[slot], [slot](std::vector<int>& c) { c.push_back(slot); });
 }
 
 void QuadGrid::remove(int id) {
-  Quad& quad = quads_[id];
-  assert(quad.present);
-  for_each_cell(quad, [id](std::vector<int>& c) {
-    *std::find(c.begin(), c.end(), id) = c.back(), c.pop_back();
+  assert(contains(id));
+  const int slot = std::exchange(slot_of_[id], -1);
+  for_each_cell(quads_[slot], [slot](std::vector<int>& c) {
+    *std::find(c.begin(), c.end(), slot) = c.back(), c.pop_back();
   });
-  quad.present = false;
-  --n_present_;
+  free_.push_back(slot);
 }
 
 void QuadGrid::look_into(int x, int y, int z, const Eigen::Vector3d& p, Nearest& best) {
-  for (int id : cell(x, y, z)) {
-    Quad& quad = quads_[id];
+  for (int slot : cell(x, y, z)) {
+    Quad& quad = quads_[slot];
     if (quad.visited == query_) continue;
     quad.visited = query_;
     if (quad.box.squared_distance(p) > best.squared_distance) continue;
     const double d = squared_distance(p, quad.points);
-    if (d < best.squared_distance || (d == best.squared_distance && id < best.id)) best = {d, id};
+    if (d < best.squared_distance || (d == best.squared_distance && quad.id < best.id))
+      best = {d, quad.id};
   }
 }
 
 QuadGrid::Nearest QuadGrid::nearest(const Eigen::Vector3d& p, int guess, double enough) {
   Nearest best{std::numeric_limits<double>::infinity(), -1};
-  if (n_present_ == 0) return best;
+  if (free_.size() == quads_.size()) return best;
   ++query_;
   const auto is_enough = [&] { return enough > 0 && best.squared_distance <= enough * enough; };
-  if (guess >= 0) best = {squared_distance(p, quads_[guess].points), guess};
+  if (guess >= 0) best = {squared_distance(p, this->points(guess)), guess};
   const Index at = index_of(p);
   double margin = cell_size_;  // from p to the nearest wall of its cell
   for (int k = 0; k < 3; ++k) {

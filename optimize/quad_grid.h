@@ -28,9 +28,9 @@ class QuadGrid {
   /// \param id  ≥ 0, not in the grid
   void insert(int id, const QuadPoints& quad);
   void remove(int id);
-  bool contains(int id) const { return id < static_cast<int>(quads_.size()) && quads_[id].present; }
-  const QuadPoints& points(int id) const { return quads_[id].points; }
-  const Eigen::Vector3d& centre(int id) const { return quads_[id].centre; }
+  bool contains(int id) const { return id < static_cast<int>(slot_of_.size()) && slot_of_[id] >= 0; }
+  const QuadPoints& points(int id) const { return quads_[slot_of_[id]].points; }
+  const Eigen::Vector3d& centre(int id) const { return quads_[slot_of_[id]].centre; }
 
   struct Nearest {
     double squared_distance;  ///< infinite if the grid is empty
@@ -47,7 +47,7 @@ class QuadGrid {
     QuadPoints points;
     Eigen::Vector3d centre;
     Box3 box;
-    bool present = false;
+    int id = -1;
     std::int64_t visited = 0;  // number of the last query that looked at it
   };
   using Index = std::array<int, 3>;
@@ -62,9 +62,11 @@ class QuadGrid {
   Eigen::Vector3d lower_;
   double cell_size_;
   Index size_;
-  std::vector<std::vector<int>> cells_;
-  std::vector<Quad> quads_;  // by id
-  int n_present_ = 0;
+  std::vector<std::vector<int>> cells_;  // slots
+  // Few of the ids that a caller uses are in the grid at a time: what is, lies close together.
+  std::vector<int> slot_of_;  // by id, -1 if not in the grid
+  std::vector<Quad> quads_;   // by slot
+  std::vector<int> free_;     // slots
   std::int64_t query_ = 0;
 };
 

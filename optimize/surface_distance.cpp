@@ -236,7 +236,7 @@ double SurfaceDistance::update(const HexMesh& mesh, const std::vector<ChangedSid
   }
   update_grid(changed);  // after the look that ends most of those that are given up
   const double worst = update_samples(changed, limit);
-  return given_up_ ? worst : distance();
+  return given_up_ ? worst : distance_of_change();
 }
 
 double SurfaceDistance::update_samples(const std::vector<ChangedSide>& changed, double limit) {

@@ -56,12 +56,11 @@ class SurfaceDistance {
   /// Brings the distances up to the mesh as it is now; until commit() they can be rolled back.
   /// Looks at every side of the mesh. Gives up as soon as a sample is farther than `limit` (model
   /// units) and returns that sample's distance; then only rollback() is allowed.
+  /// \return the distance of what has changed since the last commit(), model units; 0 if nothing has
   double after_change(const HexMesh& mesh, double limit = std::numeric_limits<double>::infinity());
   /// The same where only sides of these cells, alive or deleted, can have changed.
   double after_change(const HexMesh& mesh, std::span<const CellHandle> touched,
                       double limit = std::numeric_limits<double>::infinity());
-  /// Of what changed since the last commit() alone, model units; 0 if nothing did.
-  double distance_of_change() const;
   /// Whether what changed since the last commit() stays within `limit` (model units) also between the
   /// samples of the options: looks as closely as is_within() (hausdorff.h), at the changed part only.
   /// \param skip_rel  sides and triangles all of whose samples are closer than this, in limits, are
@@ -110,6 +109,7 @@ class SurfaceDistance {
   double forward_distance(const HexMesh& mesh, int side, const QuadPoints& q, double limit);
   double update(const HexMesh& mesh, const std::vector<ChangedSide>& changed, double limit);
   double update_samples(const std::vector<ChangedSide>& changed, double limit);
+  double distance_of_change() const;
 
   ReferenceSurface reference_;
   SurfaceDistanceOptions options_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <iterator>
 #include <numeric>
 #include <tuple>
 
@@ -224,30 +223,41 @@ std::vector<TopologyViolation> TopologyChecker::take() {
   return std::move(violations_);
 }
 
+// A list that takes every element once.
 template <class HandleT>
-void sort_unique(std::vector<HandleT>& handles) {
-  std::sort(handles.begin(), handles.end());
-  handles.erase(std::unique(handles.begin(), handles.end()), handles.end());
-}
+class OnceEach {
+ public:
+  explicit OnceEach(int slots) : taken_(slots, 0) {}
+  void take(HandleT h) {
+    if (!taken_[h.idx]) list_.push_back(h);
+    taken_[h.idx] = 1;
+  }
+  const std::vector<HandleT>& list() const { return list_; }
+
+ private:
+  std::vector<char> taken_;
+  std::vector<HandleT> list_;
+};
 
 // Calls `visit` with the vertices, then with the edges and cells at them, until it returns false.
 // \return whether it never did
 template <class Visit>
 bool for_each_touched(const HexMesh& mesh, std::span<const VertexHandle> vertices, Visit&& visit) {
-  std::vector<VertexHandle> live;
-  std::copy_if(vertices.begin(), vertices.end(), std::back_inserter(live),
-               [&](VertexHandle v) { return mesh.is_live(v); });
-  sort_unique(live);
-  if (!std::all_of(live.begin(), live.end(), visit)) return false;
-  std::vector<EdgeHandle> edges;
-  std::vector<CellHandle> cells;
-  for (VertexHandle v : live) {
-    for (EdgeHandle e : mesh.edges(v)) edges.push_back(e);
-    for (CellHandle c : mesh.cells(v)) cells.push_back(c);
+  OnceEach<VertexHandle> live(mesh.vertex_slots());
+  for (VertexHandle v : vertices) {
+    if (mesh.is_live(v)) live.take(v);
   }
-  sort_unique(edges), sort_unique(cells);
-  return std::all_of(edges.begin(), edges.end(), visit) &&
-         std::all_of(cells.begin(), cells.end(), visit);
+  const auto all_pass = [&](const auto& elements) {
+    return std::all_of(elements.begin(), elements.end(), visit);
+  };
+  if (!all_pass(live.list())) return false;
+  OnceEach<EdgeHandle> edges(mesh.edge_slots());
+  OnceEach<CellHandle> cells(mesh.cell_slots());
+  for (VertexHandle v : live.list()) {
+    for (EdgeHandle e : mesh.edges(v)) edges.take(e);
+    for (CellHandle c : mesh.cells(v)) cells.take(c);
+  }
+  return all_pass(edges.list()) && all_pass(cells.list());
 }
 
 }  // namespace

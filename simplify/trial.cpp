@@ -88,9 +88,8 @@ Outlook outlook_after(TrialContext& context, const CollapsePlan& plan,
   outlook.least = measure_quality(context.mesh, changed).least;
   changed.insert(changed.end(), plan.removed.begin(), plan.removed.end());
   const double limit = give_up_factor * context.distance_limit;
-  const double d = context.distance.after_change(context.mesh, changed, limit);
   outlook.distance_rel =
-      (d > limit ? d : context.distance.distance_of_change()) / context.distance_limit;
+      context.distance.after_change(context.mesh, changed, limit) / context.distance_limit;
   context.distance.rollback();
   return outlook;
 }
@@ -191,6 +190,7 @@ bool relieve_farthest(TrialContext& context, const SimplifyOptions& options) {
   Transaction attempt(mesh);
   if (!parametrize(mesh, region, context.reference, p).valid()) return false;
   const bool nearer = context.distance.after_change(mesh, region, before) < before &&
+                      context.distance.distance() < before &&
                       context.distance.change_is_within(context.final_limit);
   if (!nearer) {
     context.distance.rollback();
