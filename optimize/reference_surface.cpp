@@ -85,10 +85,10 @@ TriangleIndex::TriangleIndex(const Eigen::Matrix3Xd& points,
   rtcCommitScene(scene_);
 }
 
-/// What a query reads of a triangle, in one place.
-struct Facet {
-  Eigen::Vector3d a, b, c, normal;
+/// What a query reads of a triangle, in one place and in that order.
+struct alignas(64) Facet {
   Box3 box;
+  Eigen::Vector3d a, b, c, normal;
   bool at_feature;
 };
 
@@ -185,7 +185,7 @@ void ReferenceSurface::Impl::make_facets(double feature_angle_deg) {
     bool at_feature = false;
     for (auto v = mesh.cfv_iter(f); v.is_valid(); ++v) at_feature |= sharp[v->idx()] != 0;
     const std::array<Eigen::Vector3d, 3> corners = {points.col(a), points.col(b), points.col(c)};
-    facets.push_back({corners[0], corners[1], corners[2], to_eigen(mesh.normal(f)), box_of(corners),
+    facets.push_back({box_of(corners), corners[0], corners[1], corners[2], to_eigen(mesh.normal(f)),
                       at_feature});
   }
 }

@@ -41,30 +41,37 @@ struct Deviation {
   double middle() const { return (least + greatest) / 2; }
 };
 
-/// \param near_quad  the triangle closest to each quad's centre, if known; updated
+/// The closest point to a place that moves a little from time to time.
+/// \param known     the triangle it was on the last time, or -1; updated
+/// \param neighbor  the one found for the place before, or -1; updated
+SurfacePoint closest_from_last(const ReferenceSurface& reference, const Eigen::Vector3d& at,
+                               const Eigen::Vector3d& normal, int& known, int& neighbor) {
+  const SurfacePoint s = reference.closest(at, normal, known >= 0 ? known : neighbor);
+  known = neighbor = s.triangle;
+  return s;
+}
+
 std::vector<Deviation> deviations(const Region& region, const RegionNormals& normals,
-                                  const ReferenceSurface& reference, std::vector<int>& near_quad) {
+                                  const ReferenceSurface& reference,
+                                  std::vector<NearTriangles>& near_quad) {
   std::vector<Deviation> result(region.points.cols());
-  int near = -1;
+  int neighbor = -1;
   for (std::size_t i = 0; i < region.quads.size(); ++i) {
     const auto& q = region.quads[i];
     const Eigen::Vector3d normal = normals.quad.col(i);
     Eigen::Vector3d p[4];
     for (int k = 0; k < 4; ++k) p[k] = region.points.col(q[k]);
-    const auto signed_distance = [&](const Eigen::Vector3d& at) {
-      const SurfacePoint s = reference.closest(at, normal, near);
-      near = s.triangle;
+    const auto signed_distance = [&](const Eigen::Vector3d& at, int& near) {
+      const SurfacePoint s = closest_from_last(reference, at, normal, near, neighbor);
       return std::copysign(s.distance, (s.point - at).dot(normal));
     };
-    if (near_quad[i] >= 0) near = near_quad[i];
-    const double centre = signed_distance((p[0] + p[2]) / 2);
-    near_quad[i] = near;
+    const double centre = signed_distance((p[0] + p[2]) / 2, near_quad[i].centre);
     for (int k = 0; k < 4; ++k) {
       result[q[k]].take(centre);
       // The quad on the other side runs along this edge the other way: one of the two looks at it.
       const int from = q[k], to = q[(k + 1) % 4];
       if (from > to && from < region.n_free) continue;
-      const double edge = signed_distance((p[k] + p[(k + 1) % 4]) / 2);
+      const double edge = signed_distance((p[k] + p[(k + 1) % 4]) / 2, near_quad[i].middles[k]);
       result[from].take(edge);
       result[to].take(edge);
     }
@@ -87,18 +94,20 @@ struct TangentPlanes {
 /// Of the vertices that are marked only.
 std::vector<TangentPlanes> tangent_planes(const Region& region, const RegionNormals& normals,
                                           const ReferenceSurface& reference,
-                                          const std::vector<char>& wanted) {
+                                          const std::vector<char>& wanted,
+                                          std::vector<NearTriangles>& near_quad) {
   constexpr double kInto = 0.25;  // of the way to the quad's centre
   std::vector<TangentPlanes> planes(region.points.cols());
-  int near = -1;
+  int neighbor = -1;
   for (std::size_t i = 0; i < region.quads.size(); ++i) {
     Eigen::Vector3d centre = Eigen::Vector3d::Zero();
     for (int v : region.quads[i]) centre += region.points.col(v) / 4;
-    for (int v : region.quads[i]) {
+    for (int k = 0; k < 4; ++k) {
+      const int v = region.quads[i][k];
       if (!wanted[v]) continue;
       const Eigen::Vector3d at = (1 - kInto) * region.points.col(v) + kInto * centre;
-      const SurfacePoint s = reference.closest(at, normals.quad.col(i), near);
-      near = s.triangle;
+      const SurfacePoint s =
+          closest_from_last(reference, at, normals.quad.col(i), near_quad[i].inside[k], neighbor);
       planes[v].take(s.normal, s.point);
     }
   }
@@ -143,7 +152,7 @@ void leave_to_chains(const Region& region, const FeatureCurves& curves,
   for (const auto& q : region.quads) {
     if (std::none_of(q.begin(), q.end(), [&](int v) { return labels[v].is_any(); })) continue;
     for (int v : q) {
-      if (!at_feature[v] || labels[v].is_any()) continue;
+      if (!at_feature[v]) continue;
       const int nearest = curves.closest(region.points.col(v)).line;
       const auto runs_here = [&](int w) {
         return labels[w].is_corner() || labels[w].line == nearest;
@@ -157,7 +166,7 @@ void leave_to_chains(const Region& region, const FeatureCurves& curves,
 /// quads round them.
 void fit_planes(const Region& region, const RegionNormals& normals,
                 const ReferenceSurface& reference, const std::vector<char>& plane,
-                std::vector<int>& near_quad, std::vector<SurfaceGoal>& goals) {
+                std::vector<NearTriangles>& near_quad, std::vector<SurfaceGoal>& goals) {
   constexpr double kDamping = 0.7;  // neighbors move the same way; undamped they would overshoot
   std::vector<Deviation> deviation = deviations(region, normals, reference, near_quad);
   for (SurfaceGoal& goal : goals) {
@@ -177,12 +186,15 @@ std::vector<SurfacePoint> SurfaceConstraint::closest_points(
     const Region& region, const Eigen::Matrix3Xd& vertex_normals) {
   std::vector<SurfacePoint> closest;
   closest.reserve(region.surface.size());
+  int neighbor = -1;
   for (std::size_t i = 0; i < region.surface.size(); ++i) {
     const int v = region.surface[i];
-    int& near = near_vertex_[i];
-    if (near < 0 && i > 0) near = near_vertex_[i - 1];
-    closest.push_back(reference_.closest(region.points.col(v), vertex_normals.col(v), near));
-    near = closest.back().triangle;
+    if (labels_[v].is_any()) {  // its line or corner is what it goes by
+      closest.emplace_back();
+      continue;
+    }
+    closest.push_back(closest_from_last(reference_, region.points.col(v), vertex_normals.col(v),
+                                        near_vertex_[i], neighbor));
   }
   return closest;
 }
@@ -194,10 +206,12 @@ std::vector<SurfaceGoal> SurfaceConstraint::goals(const Region& region) {
   const std::vector<SurfacePoint> closest = closest_points(region, normals.vertex);
   std::vector<char> at_feature(region.points.cols(), 0), plane(region.points.cols(), 0);
   for (std::size_t i = 0; i < closest.size(); ++i) {
-    at_feature[region.surface[i]] = reference_.at_feature(closest[i].triangle);
+    const int v = region.surface[i];
+    at_feature[v] = !labels_[v].is_any() && reference_.at_feature(closest[i].triangle);
   }
   leave_to_chains(region, reference_.curves(), labels_, at_feature);
-  std::vector<TangentPlanes> planes = tangent_planes(region, normals, reference_, at_feature);
+  std::vector<TangentPlanes> planes =
+      tangent_planes(region, normals, reference_, at_feature, near_quad_);
   std::vector<SurfaceGoal> goals;
   goals.reserve(region.surface.size());
   for (std::size_t i = 0; i < region.surface.size(); ++i) {

@@ -3,6 +3,7 @@
 /// go to.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "optimize/feature_assignment.h"
@@ -29,6 +30,13 @@ struct SurfaceGoal {
   int vertex;
   Eigen::Vector3d point;  ///< on the reference, or beside it for `fit`
   Eigen::Matrix3d fixed;  ///< projector onto the directions it must not move in
+};
+
+/// The triangles of a reference that were last closest to samples of a quad, -1 where not known.
+struct NearTriangles {
+  int centre = -1;
+  std::array<int, 4> middles = {-1, -1, -1, -1};  ///< of the edges
+  std::array<int, 4> inside = {-1, -1, -1, -1};   ///< from the corners towards the centre
 };
 
 /// The surface vertices of one region, while it moves: what each stands for, which is decided once,
@@ -67,11 +75,11 @@ class SurfaceConstraint {
 
   const ReferenceSurface& reference_;
   SurfaceOptions options_;
-  std::vector<FeatureLabel> labels_;  // by vertex
-  std::vector<int> near_vertex_;      // triangle last closest, by vertex of region.surface
-  std::vector<int> near_quad_;        // and to the centre of each quad
-  std::vector<HexCorners> hexes_;     // those with a free surface vertex
-  std::vector<int> first_, around_;   // those at region.surface[i]: around_[first_[i]] and on
+  std::vector<FeatureLabel> labels_;      // by vertex
+  std::vector<int> near_vertex_;          // triangle last closest, by vertex of region.surface
+  std::vector<NearTriangles> near_quad_;  // and to the samples of each quad
+  std::vector<HexCorners> hexes_;         // those with a free surface vertex
+  std::vector<int> first_, around_;       // those at region.surface[i]: around_[first_[i]] and on
 };
 
 /// Goals from the points as they are.

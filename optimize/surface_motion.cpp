@@ -12,7 +12,7 @@ SurfaceConstraint::SurfaceConstraint(const Region& region, const ReferenceSurfac
       options_(options),
       labels_(assign_features(region.points, region.quads, region.n_free, reference)),
       near_vertex_(region.surface.size(), -1),
-      near_quad_(region.quads.size(), -1) {
+      near_quad_(region.quads.size()) {
   find_hexes_at_surface(region);
 }
 
