@@ -12,6 +12,9 @@
 namespace hexweft {
 namespace {
 
+// Of the limit: where a sample of the loop is farther, what lies between the samples is looked at.
+constexpr double kClose = 0.5;
+
 int euler_of_live(const HexMesh& mesh) {
   return mesh.n_vertices() - mesh.n_edges() + mesh.n_faces() - mesh.n_cells();
 }
@@ -158,14 +161,13 @@ Quality measure_quality(const HexMesh& mesh, std::span<const CellHandle> cells) 
 }
 
 bool stays_on_surface(TrialContext& context, std::span<const CellHandle> touched) {
-  constexpr double kClose = 0.8;  // of the limit; the samples of the loop miss less than the rest
   const StageTimer timer(context.clock, Stage::distance);
   const double limit = context.distance_limit;
   const double d = context.distance.after_change(context.mesh, touched, limit);
   if (d <= kClose * limit) return true;
   if (d <= limit) {
     const StageTimer full(context.clock, Stage::full_distance);
-    if (context.distance.change_is_within(context.final_limit)) return true;
+    if (context.distance.change_is_within(context.final_limit, kClose)) return true;
   }
   context.distance.rollback();
   return false;
@@ -191,7 +193,7 @@ bool relieve_farthest(TrialContext& context, const SimplifyOptions& options) {
   if (!parametrize(mesh, region, context.reference, p).valid()) return false;
   const bool nearer = context.distance.after_change(mesh, region, before) < before &&
                       context.distance.distance() < before &&
-                      context.distance.change_is_within(context.final_limit);
+                      context.distance.change_is_within(context.final_limit, kClose);
   if (!nearer) {
     context.distance.rollback();
     return false;
