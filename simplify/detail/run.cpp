@@ -80,8 +80,8 @@ SimplifyReport Run::run() {
   clock_.back_to(Stage::other);
   observe({.what = StepKind::start});
   loop();
-  go_on_relaxed();
-  if (report_.collapses() == 0 && step_ > 0) give_back_input();
+  go_on_afresh();
+  if (report_.collapses() == 0 && made_room_) give_back_input();
   while (!is_cut_short() && is_short_of_cells(kRefineBelow) && refine(0)) {
   }
   end_with_what_may_be_written();
@@ -111,11 +111,13 @@ void Run::collapse_while_possible(std::span<Manner* const> in_turn) {
   }
 }
 
-// Where nothing goes on any more the whole mesh is relaxed: it gives later trials more distance to spend.
-void Run::go_on_relaxed() {
+// Where nothing goes on any more what has failed is tried once more, if possible after the whole mesh
+// was relaxed, which gives it more distance to spend and better hexahedra to begin with.
+void Run::go_on_afresh() {
   constexpr int kMost = 3;
-  for (int i = 0; i < kMost && report_.collapses() > 0 && is_stuck() && relax_mesh(); ++i) {
+  for (int i = 0; i < kMost && is_stuck(); ++i) {
     const int before = report_.collapses();
+    relax_mesh();
     forget_failures();
     failed_in_a_row_ = 0;
     report_.stopped = StopReason::nothing_left;
@@ -129,11 +131,12 @@ bool Run::is_stuck() {
          bc_.components.size() > 1;
 }
 
-bool Run::relax_mesh() {
-  const bool relaxed = timed(Stage::relief, [&] { return relax_all(context_, options_); });
-  if (relaxed) observe({.what = StepKind::relief});
+void Run::relax_mesh() {
+  if (timed(Stage::relief, [&] { return relax_all(context_, options_); })) {
+    made_room_ = true;
+    observe({.what = StepKind::relief});
+  }
   record();
-  return relaxed;
 }
 
 void Run::refine_while_short() {
@@ -197,6 +200,7 @@ bool Run::refine_one(const DualSheet& sheet) {
   not_refinable_.clear();
   bc_of_this_mesh_ = false;
   ++step_;
+  made_room_ = true;
   observe({.what = StepKind::refinement});
   if (!in_round_) record();
   return true;

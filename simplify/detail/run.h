@@ -54,9 +54,9 @@ class Run {
   // ---- The loop (run.cpp) ----
   void loop(bool boldly = true);
   void collapse_while_possible(std::span<Manner* const> in_turn);
-  void go_on_relaxed();
+  void go_on_afresh();
   bool is_stuck();
-  bool relax_mesh();
+  void relax_mesh();
   void refine_while_short();
   bool refine(double min_length_rel, double most_cells_rel = 1);
   bool refine_one(const DualSheet& sheet);
@@ -131,7 +131,8 @@ class Run {
   SimplifyReport report_;
   HexMesh verified_;  // the last mesh that may be written; at first the input
   int verified_components_ = 0;
-  int step_ = 0;  // collapses and splits that the mesh is away from the input
+  int step_ = 0;            // collapses and splits that the mesh is away from the input
+  bool made_room_ = false;  // by splits or relaxing, which are for nothing without a collapse
   std::vector<SimplifyProgress> observed_;  // not told yet: the components are still to be counted
   bool in_round_ = false, last_round_failed_ = false;
   int failed_in_a_row_ = 0;  // trials that came as far as the geometry, since the last accepted one

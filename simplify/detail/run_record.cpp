@@ -49,6 +49,7 @@ void Run::go_on_from(const Checkpoint& from) {
   const RunState& s = from.state;
   replace_mesh(from.mesh);
   step_ = s.step;
+  made_room_ = true;
   failed_in_a_row_ = s.failed_in_a_row;
   context_.distance_limit = s.distance_share * context_.final_limit;
   report_.sheets = s.sheets;
@@ -195,11 +196,12 @@ void Run::compact() {
   replace_mesh(mesh_);
 }
 
-// Splits that made room for no collapse were for nothing.
+// Splits and relaxing that made room for no collapse were for nothing.
 void Run::give_back_input() {
   const auto extracting = timer(Stage::base_complex);
   replace_mesh(verified_);
   step_ = 0;
+  made_room_ = false;
   report_.refinement_failed += report_.refined;
   report_.refined = 0;
 }
