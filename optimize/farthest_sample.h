@@ -29,6 +29,13 @@ inline double covering_radius(const Eigen::Vector3d& p, const Eigen::Vector3d& q
   return std::sqrt(a * b * c / (4 * a * b - (a + b - c) * (a + b - c)));  // of the circumcircle
 }
 
+/// How large parts of a surface may be that are looked at for whether they keep a limit; all in model
+/// units.
+/// \param size  of the surface, which bounds the effort where the limit is very small
+inline double resolution_for(double limit, double size) {
+  return std::max(0.05 * limit, 2e-4 * size);
+}
+
 /// A point that was looked at, and its distance, or some more where that is small.
 struct Sample {
   Eigen::Vector3d point;
@@ -44,9 +51,15 @@ class FarthestSample {
   ///                  or, if that is at most `enough`, any number from it to `enough`
   /// \param at_least  below it distances are not told apart
   /// \param enough    beyond it the search is over
+  /// \param resolution  > 0: parts with a larger covering radius are divided further than they were
+  ///                    asked for, unless what can be in them is not much more than that
   FarthestSample(Distance distance, double at_least,
-                 double enough = std::numeric_limits<double>::infinity())
-      : distance_(std::move(distance)), farthest_(at_least), enough_(enough) {}
+                 double enough = std::numeric_limits<double>::infinity(),
+                 double resolution = std::numeric_limits<double>::infinity())
+      : distance_(std::move(distance)),
+        farthest_(at_least),
+        enough_(enough),
+        resolution_(resolution) {}
 
   bool done() const { return farthest_ > enough_; }
 
@@ -63,7 +76,8 @@ class FarthestSample {
   void look_at(const Sample& a, const Sample& b, const Sample& c, int levels) {
     if (done() || is_close(a, b, c)) return;
     const Sample g = look_at((a.point + b.point + c.point) / 3);
-    if (levels == 0 || (is_close(a, b, g) && is_close(b, c, g) && is_close(c, a, g))) return;
+    if (is_close(a, b, g) && is_close(b, c, g) && is_close(c, a, g)) return;
+    if (levels <= 0 && !is_coarse(a, b, c)) return;
     const Sample ab = look_at((a.point + b.point) / 2), bc = look_at((b.point + c.point) / 2),
                  ca = look_at((c.point + a.point) / 2);
     look_at(ab, bc, ca, levels - 1);
@@ -75,14 +89,22 @@ class FarthestSample {
   double distance() const { return farthest_; }
 
  private:
-  bool is_close(const Sample& a, const Sample& b, const Sample& c) const {
+  /// That no point of the triangle can be farther.
+  static double bound(const Sample& a, const Sample& b, const Sample& c) {
     return std::max({a.distance, b.distance, c.distance}) +
-               covering_radius(a.point, b.point, c.point) <=
-           farthest_;
+           covering_radius(a.point, b.point, c.point);
+  }
+  bool is_close(const Sample& a, const Sample& b, const Sample& c) const {
+    return bound(a, b, c) <= farthest_;
+  }
+  bool is_coarse(const Sample& a, const Sample& b, const Sample& c) const {
+    constexpr double kFaint = 3;  // resolutions
+    return covering_radius(a.point, b.point, c.point) > resolution_ &&
+           bound(a, b, c) > kFaint * resolution_;
   }
 
   Distance distance_;
-  double farthest_, enough_;
+  double farthest_, enough_, resolution_;
 };
 
 /// Corners that triangles share: each is looked at once, when it is first asked for.

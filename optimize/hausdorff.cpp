@@ -21,6 +21,9 @@ void check(const HausdorffOptions& o) {
   if (!(o.at_least >= 0)) {
     throw InputError("at_least = " + std::to_string(o.at_least) + ", expected >= 0");
   }
+  if (o.resolution && !(*o.resolution > 0)) {
+    throw InputError("resolution = " + std::to_string(*o.resolution) + ", expected > 0");
+  }
   if (o.points_per_surface < 0) {
     throw InputError("points_per_surface = " + std::to_string(o.points_per_surface) +
                      ", expected >= 0");
@@ -41,6 +44,7 @@ bool is_within(const HexMesh& mesh, const ReferenceSurface& reference, double li
   HausdorffOptions o = options;
   o.at_least = 0.999 * limit;
   o.enough = limit;
+  if (!o.resolution) o.resolution = resolution_for(limit, reference.bounding_box_diagonal());
   const ReferenceSurface surface = make_reference_surface(mesh);
   return hausdorff_distance(surface, reference, o).distance() <= limit;
 }
@@ -65,7 +69,8 @@ double one_sided_distance(const ReferenceSurface& from, const ReferenceSurface& 
   int near = -1;
   FarthestSample farthest(
       [&](const Eigen::Vector3d& p, double enough) { return to.distance(p, near, enough); },
-      options.at_least, options.enough);
+      options.at_least, options.enough,
+      options.resolution.value_or(5e-4 * to.bounding_box_diagonal()));
   SharedCorners corners(farthest, points);
   for (const auto& t : triangles) {
     if (farthest.done()) break;

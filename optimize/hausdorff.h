@@ -6,6 +6,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 
 #include "optimize/reference_surface.h"
 
@@ -14,11 +15,16 @@ namespace hexweft {
 class HexMesh;
 
 /// Which points of a triangle are looked at: its corners, and those of its regular subdivision into
-/// as many parts as it takes to have the number below, with their centroids.
+/// as many parts as it takes to have the number below, with their centroids. Large triangles are
+/// divided further where the farthest point can be: a distance is not missed because a surface is
+/// coarse.
 struct HausdorffOptions {
   int points_per_triangle = 10;  ///< > 0, at least so many on every triangle
   int points_per_surface =
       0;  ///< ≥ 0, spread by area; 0: points_per_triangle × the larger triangle count
+  /// > 0, model units: how large parts may be, as their covering radius; unset: 5e-4 of the
+  /// diagonal of the second surface's bounding box
+  std::optional<double> resolution = {};
   bool parallel = false;  ///< the two directions on a thread each; the result is the same
   double at_least =
       0;  ///< ≥ 0, model units: below it distances are not told apart, which saves time

@@ -18,7 +18,7 @@ bool SurfaceDistance::change_is_within(double limit, double skip_rel) {
   int near = -1;
   FarthestSample farthest(
       [&](const Eigen::Vector3d& p, double enough) { return reference_.distance(p, near, enough); },
-      limit, limit);
+      limit, limit, resolution_for(limit, reference_.bounding_box_diagonal()));
   for (const SideUndo& u : side_undo_) {
     if (!grid_.contains(u.side) || forward_[u.side] < skip_rel * limit) continue;
     const QuadPoints& q = grid_.points(u.side);
@@ -44,7 +44,7 @@ bool SurfaceDistance::changed_triangles_are_within(double limit, double skip) {
         guess = nearest.id;
         return std::sqrt(nearest.squared_distance);
       },
-      limit, limit);
+      limit, limit, resolution_for(limit, reference_.bounding_box_diagonal()));
   const auto& triangles = reference_.triangles();
   // A side that moved can come nearest to, or leave, parts of the triangles beside these as well.
   std::vector<char> near_change(reference_.points().cols(), 0);

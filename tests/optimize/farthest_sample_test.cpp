@@ -1,7 +1,9 @@
 // Searches that pass over what is close find what looking everywhere finds.
 #include "optimize/farthest_sample.h"
 
+#include <algorithm>
 #include <array>
+#include <limits>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -92,6 +94,27 @@ TEST(FarthestSample, IsThatOfLookingEverywhere) {
     }
     EXPECT_DOUBLE_EQ(farthest.distance(), expected);
     EXPECT_LT(looks, 1000);  // of 4,000
+  }
+}
+
+TEST(FarthestSample, DividesLargePartsUntilNothingIsMissed) {
+  Random random(5);
+  constexpr double kResolution = 0.02, kWidth = 0.2;
+  for (int i = 0; i < 50; ++i) {
+    Triangle t = random_triangle(random, 1);
+    for (auto& p : t) p *= 5;
+    const double u = random.uniform(0, 1), v = random.uniform(0, 1 - u);
+    const Eigen::Vector3d place = t[0] + u * (t[1] - t[0]) + v * (t[2] - t[0]);
+    const auto tent = [&](const Eigen::Vector3d& x, double) {
+      return std::max(0.0, kWidth - (x - place).norm());
+    };
+    int looks = 0;
+    FarthestSample farthest(
+        [&](const Eigen::Vector3d& x, double enough) { return ++looks, tent(x, enough); }, 0,
+        std::numeric_limits<double>::infinity(), kResolution);
+    farthest.look_at(farthest.look_at(t[0]), farthest.look_at(t[1]), farthest.look_at(t[2]), 2);
+    EXPECT_GE(farthest.distance(), kWidth - kResolution);
+    EXPECT_LE(farthest.distance(), kWidth);
   }
 }
 

@@ -23,11 +23,12 @@ TEST(HausdorffDistance, OfAMeshToItselfIsZero) {
 TEST(HausdorffDistance, OfNestedCubesIsTheirGapAndItsSpaceDiagonal) {
   const auto inner = make_reference_surface(box(0, 1, 3)),
              outer = make_reference_surface(box(-0.1, 1.1, 4));
-  const auto d = hausdorff_distance(inner, outer);
+  // Everywhere about as far: nothing can be passed over.
+  const auto d = hausdorff_distance(inner, outer, {.resolution = 0.01});
   EXPECT_NEAR(d.forward, 0.1, 1e-12);
   EXPECT_NEAR(d.backward, 0.1 * std::sqrt(3), 1e-12);
   EXPECT_NEAR(d.ratio(), 0.1 / 1.2, 1e-12);
-  EXPECT_NEAR(hausdorff_distance(outer, inner).forward, d.backward, 1e-15);
+  EXPECT_NEAR(hausdorff_distance(outer, inner, {.resolution = 0.01}).forward, d.backward, 1e-15);
 }
 
 TEST(HausdorffDistance, FindsASpikeFromOneSideOnly) {
@@ -47,6 +48,19 @@ TEST(HausdorffDistance, OfABallToItsCoarserSelfIsAboutTheSagitta) {
   const auto d = hausdorff_distance(make_ball(4), fine);
   EXPECT_GT(d.backward, 0.05);
   EXPECT_LT(d.backward, 0.2);
+}
+
+TEST(HausdorffDistance, IsTheSameHoweverCoarseTheFirstSurfaceIs) {
+  HexMesh dented = box(0, 1, 16);
+  Random random(6);
+  for (VertexHandle v : dented.vertices())
+    dented.set_point(v, dented.point(v) + random.in_cube(0.02));
+  const auto to = make_reference_surface(dented);
+  const double fine = one_sided_distance(make_reference_surface(box(0, 1, 32)), to);
+  for (int n : {1, 2, 3}) {
+    const double coarse = one_sided_distance(make_reference_surface(box(0, 1, n)), to);
+    EXPECT_NEAR(coarse, fine, 1.5e-3 * to.bounding_box_diagonal()) << n;
+  }
 }
 
 TEST(HausdorffDistance, IsNoLowerThanThatOfRandomSamples) {
@@ -88,6 +102,7 @@ TEST(HausdorffDistance, RefusesBadOptions) {
   const auto s = make_reference_surface(box(0, 1, 1));
   EXPECT_THROW(one_sided_distance(s, s, {.points_per_triangle = 0}), InputError);
   EXPECT_THROW(one_sided_distance(s, s, {.points_per_surface = -1}), InputError);
+  EXPECT_THROW(one_sided_distance(s, s, {.resolution = 0}), InputError);
 }
 
 }  // namespace

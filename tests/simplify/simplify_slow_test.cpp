@@ -40,6 +40,12 @@ TEST(SimplifySlow, WhatWasCollapsedIsNotLostInTheLastCheck) {
   EXPECT_LT(report.after.components, report.before.components);
 }
 
+// Its triangles are several limits wide: ten points on each miss a tenth of the distance.
+TEST(SimplifySlow, CoarseSurfacesKeepTheLimitBetweenTheirPoints) {
+  const SimplifyReport report = simplify_well(make_solid("gear", 18));
+  EXPECT_GT(report.collapses(), 0);
+}
+
 // The same part simplified by each of the options.
 template <std::size_t n>
 std::array<SimplifyReport, n> simplify_by_each(const std::array<SimplifyOptions, n>& options) {
