@@ -52,7 +52,7 @@ class FarthestSample {
   /// \param at_least  below it distances are not told apart
   /// \param enough    beyond it the search is over
   /// \param resolution  > 0: parts with a larger covering radius are divided further than they were
-  ///                    asked for, unless what can be in them is not much more than that
+  ///                    asked for, unless nothing in them can be farther than ten times that
   FarthestSample(Distance distance, double at_least,
                  double enough = std::numeric_limits<double>::infinity(),
                  double resolution = std::numeric_limits<double>::infinity())
@@ -98,7 +98,7 @@ class FarthestSample {
     return bound(a, b, c) <= farthest_;
   }
   bool is_coarse(const Sample& a, const Sample& b, const Sample& c) const {
-    constexpr double kFaint = 3;  // resolutions
+    constexpr double kFaint = 10;  // resolutions: small distances need not be known as well
     return covering_radius(a.point, b.point, c.point) > resolution_ &&
            bound(a, b, c) > kFaint * resolution_;
   }

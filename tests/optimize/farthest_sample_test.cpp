@@ -99,7 +99,7 @@ TEST(FarthestSample, IsThatOfLookingEverywhere) {
 
 TEST(FarthestSample, DividesLargePartsUntilNothingIsMissed) {
   Random random(5);
-  constexpr double kResolution = 0.02, kWidth = 0.2;
+  constexpr double kResolution = 0.01, kWidth = 0.2;
   for (int i = 0; i < 50; ++i) {
     Triangle t = random_triangle(random, 1);
     for (auto& p : t) p *= 5;
