@@ -28,7 +28,9 @@ class QuadGrid {
   /// \param id  ≥ 0, not in the grid
   void insert(int id, const QuadPoints& quad);
   void remove(int id);
-  bool contains(int id) const { return id < static_cast<int>(slot_of_.size()) && slot_of_[id] >= 0; }
+  bool contains(int id) const {
+    return id < static_cast<int>(slot_of_.size()) && slot_of_[id] >= 0;
+  }
   const QuadPoints& points(int id) const { return quads_[slot_of_[id]].points; }
   const Eigen::Vector3d& centre(int id) const { return quads_[slot_of_[id]].centre; }
 
