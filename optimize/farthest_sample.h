@@ -76,8 +76,8 @@ class FarthestSample {
   void look_at(const Sample& a, const Sample& b, const Sample& c, int levels) {
     if (done() || is_close(a, b, c)) return;
     const Sample g = look_at((a.point + b.point + c.point) / 3);
-    if (is_close(a, b, g) && is_close(b, c, g) && is_close(c, a, g)) return;
     if (levels <= 0 && !is_coarse(a, b, c)) return;
+    if (is_close(a, b, g) && is_close(b, c, g) && is_close(c, a, g)) return;
     const Sample ab = look_at((a.point + b.point) / 2), bc = look_at((b.point + c.point) / 2),
                  ca = look_at((c.point + a.point) / 2);
     look_at(ab, bc, ca, levels - 1);
@@ -89,18 +89,19 @@ class FarthestSample {
   double distance() const { return farthest_; }
 
  private:
-  /// That no point of the triangle can be farther.
-  static double bound(const Sample& a, const Sample& b, const Sample& c) {
-    return std::max({a.distance, b.distance, c.distance}) +
-           covering_radius(a.point, b.point, c.point);
+  static double radius(const Sample& a, const Sample& b, const Sample& c) {
+    return covering_radius(a.point, b.point, c.point);
+  }
+  static double farthest_corner(const Sample& a, const Sample& b, const Sample& c) {
+    return std::max({a.distance, b.distance, c.distance});
   }
   bool is_close(const Sample& a, const Sample& b, const Sample& c) const {
-    return bound(a, b, c) <= farthest_;
+    return farthest_corner(a, b, c) + radius(a, b, c) <= farthest_;
   }
   bool is_coarse(const Sample& a, const Sample& b, const Sample& c) const {
     constexpr double kFaint = 10;  // resolutions: small distances need not be known as well
-    return covering_radius(a.point, b.point, c.point) > resolution_ &&
-           bound(a, b, c) > kFaint * resolution_;
+    const double r = radius(a, b, c);
+    return r > resolution_ && farthest_corner(a, b, c) + r > kFaint * resolution_;
   }
 
   Distance distance_;

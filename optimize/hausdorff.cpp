@@ -30,6 +30,9 @@ void check(const HausdorffOptions& o) {
   }
 }
 
+/// Where no limit is asked for: that of the limit most have.
+double usual_resolution(double diagonal) { return resolution_for(0.01 * diagonal, diagonal); }
+
 /// Subdivisions after which the parts' centroids are at least n.
 int levels_for(double n) {
   int levels = 0;
@@ -70,7 +73,7 @@ double one_sided_distance(const ReferenceSurface& from, const ReferenceSurface& 
   FarthestSample farthest(
       [&](const Eigen::Vector3d& p, double enough) { return to.distance(p, near, enough); },
       options.at_least, options.enough,
-      options.resolution.value_or(5e-4 * to.bounding_box_diagonal()));
+      options.resolution.value_or(usual_resolution(to.bounding_box_diagonal())));
   SharedCorners corners(farthest, points);
   for (const auto& t : triangles) {
     if (farthest.done()) break;

@@ -22,9 +22,8 @@ struct HausdorffOptions {
   int points_per_triangle = 10;  ///< > 0, at least so many on every triangle
   int points_per_surface =
       0;  ///< ≥ 0, spread by area; 0: points_per_triangle × the larger triangle count
-  /// > 0, model units: how large parts may be, as their covering radius, where there may be distances
-  /// of more than ten times that; unset: 5e-4 of the
-  /// diagonal of the second surface's bounding box
+  /// > 0, model units: how large parts may be, as FarthestSample; unset: resolution_for() a limit of a
+  /// hundredth of the diagonal of the second surface's bounding box (farthest_sample.h)
   std::optional<double> resolution = {};
   bool parallel = false;  ///< the two directions on a thread each; the result is the same
   double at_least =

@@ -56,8 +56,7 @@ void QuadGrid::insert(int id, const QuadPoints& points) {
   }
   const int slot = slot_of_[id] = free_.back();
   free_.pop_back();
-  const Eigen::Vector3d centre = (points[0] + points[1] + points[2] + points[3]) / 4;
-  quads_[slot] = {points, centre, box_of(points), id};
+  quads_[slot] = {points, box_of(points), id};
   for_each_cell(quads_[slot], [slot](std::vector<int>& c) { c.push_back(slot); });
 }
 

@@ -16,6 +16,7 @@ namespace hexweft {
 /// A side of a hexahedron as the two triangles (0,1,2) and (2,3,0).
 using QuadPoints = std::array<Eigen::Vector3d, 4>;
 
+inline Eigen::Vector3d centre_of(const QuadPoints& q) { return (q[0] + q[1] + q[2] + q[3]) / 4; }
 double squared_distance(const Eigen::Vector3d& p, const QuadPoints& quad);
 
 /// Quads are known by the id the caller gives them.
@@ -32,7 +33,6 @@ class QuadGrid {
     return id < static_cast<int>(slot_of_.size()) && slot_of_[id] >= 0;
   }
   const QuadPoints& points(int id) const { return quads_[slot_of_[id]].points; }
-  const Eigen::Vector3d& centre(int id) const { return quads_[slot_of_[id]].centre; }
 
   struct Nearest {
     double squared_distance;  ///< infinite if the grid is empty
@@ -47,7 +47,6 @@ class QuadGrid {
  private:
   struct Quad {
     QuadPoints points;
-    Eigen::Vector3d centre;
     Box3 box;
     int id = -1;
     std::int64_t visited = 0;  // number of the last query that looked at it

@@ -70,6 +70,7 @@ class SurfaceConstraint {
 
  private:
   void find_hexes_at_surface(const Region& region);
+  /// One for each vertex of region.surface; empty for those that stand for a feature.
   std::vector<SurfacePoint> closest_points(const Region& region,
                                            const Eigen::Matrix3Xd& vertex_normals);
 

@@ -230,7 +230,7 @@ double SurfaceDistance::update(const HexMesh& mesh, const std::vector<ChangedSid
     forward_[side] = forward_distance(mesh, side, q, limit);
     if (forward_[side] > limit) {
       given_up_ = true;
-      too_far_at_ = (q[0] + q[1] + q[2] + q[3]) / 4;
+      too_far_at_ = centre_of(q);
       return forward_[side];
     }
   }

@@ -27,7 +27,7 @@ bool SurfaceDistance::change_is_within(double limit, double skip_rel) {
     farthest.look_at(corners[0], corners[1], corners[2], kLevels + levels_for(q[0], q[1], q[2]));
     farthest.look_at(corners[2], corners[3], corners[0], kLevels + levels_for(q[2], q[3], q[0]));
     if (farthest.done()) {
-      too_far_at_ = grid_.centre(u.side);
+      too_far_at_ = centre_of(q);
       return false;
     }
   }

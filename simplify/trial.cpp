@@ -19,18 +19,13 @@ int euler_of_live(const HexMesh& mesh) {
   return mesh.n_vertices() - mesh.n_edges() + mesh.n_faces() - mesh.n_cells();
 }
 
-// The vertices and those next to them. A merge can make a doublet at a neighbour: two of its edges
-// become one.
+// The vertices and those next to them, some of them several times. A merge can make a doublet at a
+// neighbour: two of its edges become one.
 std::vector<VertexHandle> with_neighbors(const HexMesh& mesh, std::span<const VertexHandle> some) {
   std::vector<VertexHandle> all(some.begin(), some.end());
   for (VertexHandle v : some) {
-    for (EdgeHandle e : mesh.edges(v)) {
-      const auto [from, to] = mesh.vertices(e);
-      all.push_back(from == v ? to : from);
-    }
+    for (EdgeHandle e : mesh.edges(v)) all.push_back(mesh.other_end(e, v));
   }
-  std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
   return all;
 }
 
