@@ -17,6 +17,7 @@
 
 #include "optimize/energies/table.h"
 #include "optimize/hex_batch.h"
+#include "ovm/hex_mesh.h"
 
 namespace hexweft {
 
@@ -60,5 +61,7 @@ std::vector<double> min_relative_determinants(const Eigen::Matrix3Xd& points,
 /// Verdict defines it. A corner with an edge of no length counts -1.
 std::vector<double> scaled_jacobians(const Eigen::Matrix3Xd& points,
                                      std::span<const HexCorners> hexes);
+/// The same of cells of a mesh: scaled_jacobian() (quality.h) of many at once, several times as fast.
+std::vector<double> scaled_jacobians(const HexMesh& mesh, std::span<const CellHandle> cells);
 
 }  // namespace hexweft

@@ -1,6 +1,7 @@
 #include "simplify/refine.h"
 
 #include <algorithm>
+#include <array>
 
 #include "ovm/edit/split_sheet.h"
 #include "ovm/quality.h"
@@ -10,32 +11,41 @@ namespace hexweft {
 namespace {
 
 struct Measured {
-  int sheet;
+  EdgeHandle first;     // lowest edge of the sheet
+  int cells = 0;        // crossed; one that is crossed twice counts twice
   double length = 0;    // mean across, model units
   double distance = 0;  // mean over its boundary sides
 };
 
-std::vector<Measured> measure(const HexMesh& mesh, const std::vector<DualSheet>& sheets,
-                              const std::vector<double>& distance_of_side) {
-  std::vector<Measured> result;
-  for (int i = 0; i < static_cast<int>(sheets.size()); ++i) {
-    Measured m{i};
-    for (EdgeHandle e : sheets[i].edges) {
-      const auto [a, b] = mesh.vertices(e);
-      m.length += (mesh.point(a) - mesh.point(b)).norm();
+std::vector<Measured> measure_sheets(const HexMesh& mesh,
+                                     const std::vector<double>& distance_of_side) {
+  const DualSheets sheets = extract_dual_sheets(mesh);
+  std::vector<Measured> result(sheets.n_sheets);
+  std::vector<int> edges(sheets.n_sheets, 0), sides(sheets.n_sheets, 0);
+  for (EdgeHandle e : mesh.edges()) {
+    const int sheet = sheets[e];
+    const auto [a, b] = mesh.vertices(e);
+    result[sheet].length += (mesh.point(a) - mesh.point(b)).norm();
+    if (edges[sheet]++ == 0) result[sheet].first = e;
+  }
+  for (CellHandle c : mesh.cells()) {
+    std::array<int, 3> across;
+    for (int axis = 0; axis < 3; ++axis) {
+      across[axis] = sheets[mesh.edges(c)[4 * axis]];
+      ++result[across[axis]].cells;
     }
-    m.length /= static_cast<double>(sheets[i].edges.size());
-    int n = 0;
-    for (const CellAxis& x : sheets[i].crossings) {
-      for (int s = 0; s < 6; ++s) {
-        const HalfFaceHandle hf = mesh.halfface(x.cell, s);
-        if (side_axis(s) == x.axis || !mesh.is_boundary(hf)) continue;
-        m.distance += distance_of_side[hf.idx];
-        ++n;
+    for (HalfFaceHandle hf : mesh.halffaces(c)) {
+      if (!mesh.is_boundary(hf)) continue;
+      for (int axis = 0; axis < 3; ++axis) {
+        if (axis == side_axis(HexMesh::side(hf))) continue;
+        result[across[axis]].distance += distance_of_side[hf.idx];
+        ++sides[across[axis]];
       }
     }
-    if (n > 0) m.distance /= n;
-    result.push_back(m);
+  }
+  for (int i = 0; i < sheets.n_sheets; ++i) {
+    result[i].length /= edges[i];
+    if (sides[i] > 0) result[i].distance /= sides[i];
   }
   return result;
 }
@@ -65,15 +75,11 @@ std::optional<DualSheet> choose_sheet_to_refine(const HexMesh& mesh,
                                                 const SurfaceDistance& distance,
                                                 const RefineOptions& options,
                                                 std::span<const EdgeHandle> excluded) {
-  std::vector<DualSheet> sheets = list_dual_sheets(mesh);
   const double long_enough = options.min_length_rel * mean_edge_length(mesh);
   std::vector<Measured> candidates;
-  for (const Measured& m : measure(mesh, sheets, distance.distance_by_halfface())) {
-    const DualSheet& s = sheets[m.sheet];
-    const bool fits = static_cast<int>(s.crossings.size()) <= options.max_cells;
-    const bool known =
-        std::find(excluded.begin(), excluded.end(), s.edges.front()) != excluded.end();
-    if (fits && !known && m.length > long_enough) candidates.push_back(m);
+  for (const Measured& m : measure_sheets(mesh, distance.distance_by_halfface())) {
+    const bool known = std::find(excluded.begin(), excluded.end(), m.first) != excluded.end();
+    if (m.cells <= options.max_cells && !known && m.length > long_enough) candidates.push_back(m);
   }
   if (candidates.empty()) return std::nullopt;
   const auto by_distance = [](const Measured& a, const Measured& b) {
@@ -83,7 +89,7 @@ std::optional<DualSheet> choose_sheet_to_refine(const HexMesh& mesh,
   std::stable_sort(candidates.begin(), candidates.end(), by_distance);
   const auto end = candidates.begin() + std::min<std::ptrdiff_t>(std::max(options.by_distance, 1),
                                                                  std::ssize(candidates));
-  return std::move(sheets[std::max_element(candidates.begin(), end, by_length)->sheet]);
+  return dual_sheet(mesh, std::max_element(candidates.begin(), end, by_length)->first);
 }
 
 bool try_refine(TrialContext& context, const DualSheet& sheet, const SimplifyOptions& options) {

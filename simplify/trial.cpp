@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "optimize/hex_energy.h"
 #include "ovm/neighborhood.h"
-#include "ovm/quality.h"
 #include "ovm/topology_check.h"
 #include "simplify/feature_targets.h"
 #include "simplify/region_relaxation.h"
@@ -147,8 +147,7 @@ void commit(TrialContext& context, Transaction& change) {
 
 Quality measure_quality(const HexMesh& mesh, std::span<const CellHandle> cells) {
   Quality q{1, 0};
-  for (CellHandle c : cells) {
-    const double sj = scaled_jacobian(mesh, c);
+  for (const double sj : scaled_jacobians(mesh, cells)) {
     q.least = std::min(q.least, sj);
     q.mean += sj / static_cast<double>(cells.size());
   }

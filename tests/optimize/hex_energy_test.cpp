@@ -125,8 +125,11 @@ TEST(ScaledJacobians, AreTheKernelsOwn) {
   perturb(mesh, 0.05, true, 4);
   const Region region = make_region(mesh, all_cells(mesh));
   const std::vector<double> sj = scaled_jacobians(region.points, region.hexes);
+  const std::vector<double> of_cells = scaled_jacobians(mesh, region.cells);
+  ASSERT_EQ(of_cells.size(), sj.size());
   for (std::size_t i = 0; i < sj.size(); ++i) {
     EXPECT_NEAR(sj[i], scaled_jacobian(mesh, region.cells[i]), 1e-12);
+    EXPECT_EQ(of_cells[i], sj[i]);
   }
 }
 
