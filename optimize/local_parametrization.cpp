@@ -19,23 +19,24 @@ constexpr double kFlat = 1e-3;
 
 class Parametrization {
  public:
-  Parametrization(Region region, const ReferenceSurface& reference,
+  /// \param region  is moved
+  Parametrization(Region& region, SurfaceConstraint& constraint,
                   const ParametrizationOptions& options, std::vector<VertexPull> goals)
-      : region_(std::move(region)),
+      : region_(region),
         options_(options),
         goal_pulls_(std::move(goals)),
         lengths_(edge_lengths_at_vertices(region_)),
-        constraint_(region_, reference, options.surface),
-        goals_(constraint_.goals(region_)) {
+        constraint_(constraint),
+        goals_(surface_goals()) {
     problem_.n_free = region_.n_free;
     problem_.hexes = region_.hexes;
     problem_.targets = target_cuboids(region_, options_.target);
   }
 
   ParametrizationReport run();
-  const Region& region() const { return region_; }
 
  private:
+  std::vector<SurfaceGoal> surface_goals() { return constraint_.goals(region_, options_.surface); }
   double least_determinant() const {
     const auto d = min_relative_determinants(region_.points, region_.hexes, problem_.targets);
     return d.empty() ? 1 : *std::min_element(d.begin(), d.end());
@@ -55,11 +56,11 @@ class Parametrization {
   void iterate(const Energy& energy, int iterations);
   double largest_relative_move(const Eigen::Matrix3Xd& from) const;
 
-  Region region_;
+  Region& region_;
   const ParametrizationOptions& options_;
   std::vector<VertexPull> goal_pulls_;
   std::vector<double> lengths_;  // of edges at each vertex, at the start
-  SurfaceConstraint constraint_;
+  SurfaceConstraint& constraint_;
   std::vector<SurfaceGoal>
       goals_;                  // of the last projection; also the planes of the next relaxation
   RelaxationProblem problem_;  // has the points during a relaxation only; targets of the points
@@ -130,7 +131,7 @@ bool Parametrization::untangle(ProblemPart* part) {
     energy.epsilon = FoldoverFree::epsilon_for(least - kFlat);
     relax_once(energy, kIterations, part);
     problem_.targets = target_cuboids(region_, options_.target);
-    if ((round + 1) % kRoundsPerGoal == 0) goals_ = constraint_.goals(region_);
+    if ((round + 1) % kRoundsPerGoal == 0) goals_ = surface_goals();
     const double now = least_determinant();
     if (now > kFlat) return true;
     rounds_without_gain = now > least + 0.1 * std::abs(least) ? 0 : rounds_without_gain + 1;
@@ -162,7 +163,7 @@ void Parametrization::iterate(const Energy& energy, int iterations) {
     weigh_bad_hexes();
     problem_.stay_valid = true;  // an energy without a barrier would let corners through
     if (!relax_once(energy, options_.relaxation_iterations).feasible) break;
-    goals_ = constraint_.goals(region_);
+    goals_ = surface_goals();
     report_.on_surface = constraint_.move_to_goals(region_, goals_, options_.least_on_projection);
     ++report_.iterations;
     now = measure();
@@ -256,17 +257,28 @@ std::string_view name(ParametrizationFailure failure) {
   return "none";
 }
 
-ParametrizationReport parametrize(HexMesh& mesh, std::span<const CellHandle> cells,
+RegionParametrization::RegionParametrization(const HexMesh& mesh,
+                                             std::span<const CellHandle> region,
+                                             const ReferenceSurface& reference)
+    : region_(make_region(mesh, region)), constraint_(region_, reference) {}
+
+ParametrizationReport RegionParametrization::run(HexMesh& mesh,
+                                                 const ParametrizationOptions& options,
+                                                 std::span<const VertexGoal> goals) {
+  validate(options);
+  load_points(mesh, region_);
+  auto pulls = goal_pulls(region_, mesh.vertex_slots(), goals, options.goal_weight);
+  ParametrizationReport report =
+      Parametrization(region_, constraint_, options, std::move(pulls)).run();
+  report.max_move = store_points(region_, mesh);
+  return report;
+}
+
+ParametrizationReport parametrize(HexMesh& mesh, std::span<const CellHandle> region,
                                   const ReferenceSurface& reference,
                                   const ParametrizationOptions& options,
                                   std::span<const VertexGoal> goals) {
-  validate(options);
-  Region region = make_region(mesh, cells);
-  auto pulls = goal_pulls(region, mesh.vertex_slots(), goals, options.goal_weight);
-  Parametrization parametrization(std::move(region), reference, options, std::move(pulls));
-  ParametrizationReport report = parametrization.run();
-  report.max_move = store_points(parametrization.region(), mesh);
-  return report;
+  return RegionParametrization(mesh, region, reference).run(mesh, options, goals);
 }
 
 }  // namespace hexweft

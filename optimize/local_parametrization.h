@@ -16,6 +16,7 @@
 #include <string_view>
 
 #include "optimize/reference_surface.h"
+#include "optimize/region.h"
 #include "optimize/surface_constraint.h"
 #include "optimize/target_shape.h"
 #include "ovm/hex_mesh.h"
@@ -63,13 +64,31 @@ struct ParametrizationReport {
   bool valid() const { return failure == ParametrizationFailure::none; }
 };
 
-/// Moves the vertices all of whose cells are in the region; the others stay. Surface vertices slide
-/// on the reference's tangent planes and are projected back after each iteration, as far as nothing
-/// inverts. What an energy without a barrier leaves below the least scaled Jacobian is mended with one
-/// that has it. The start may hold inverted and degenerate cells, as right after a merge.
-/// Writes points only, through mesh.set_point. Independent of the unit of length.
-/// \param region  live cells, each once
-/// \throws InputError on bad options or cells
+/// The cells of one region, to be parametrized as often as is wanted: what belongs to the region and
+/// not to its points is found out once, as which features its vertices stand for.
+class RegionParametrization {
+ public:
+  /// \param region     live cells, each once; must stay as they are but for their points
+  /// \param reference  must outlive this
+  /// \throws InputError for a cell that is not live or occurs twice
+  RegionParametrization(const HexMesh& mesh, std::span<const CellHandle> region,
+                        const ReferenceSurface& reference);
+
+  /// Moves the vertices all of whose cells are in the region; the others stay. Surface vertices slide
+  /// on the reference's tangent planes and are projected back after each iteration, as far as nothing
+  /// inverts. What an energy without a barrier leaves below the least scaled Jacobian is mended with
+  /// one that has it. The start may hold inverted and degenerate cells, as right after a merge.
+  /// Writes points only, through mesh.set_point. Independent of the unit of length.
+  /// \throws InputError on bad options
+  ParametrizationReport run(HexMesh& mesh, const ParametrizationOptions& options = {},
+                            std::span<const VertexGoal> goals = {});
+
+ private:
+  Region region_;
+  SurfaceConstraint constraint_;
+};
+
+/// The same once.
 ParametrizationReport parametrize(HexMesh& mesh, std::span<const CellHandle> region,
                                   const ReferenceSurface& reference,
                                   const ParametrizationOptions& options = {},

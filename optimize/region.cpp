@@ -77,9 +77,7 @@ Region make_region(const HexMesh& mesh, std::span<const CellHandle> cells) {
   const std::vector<int> local_cell = number_cells(mesh, cells);
   const std::vector<int> local = number_vertices(mesh, local_cell, region);
   region.points.resize(3, static_cast<Eigen::Index>(region.vertices.size()));
-  for (Eigen::Index i = 0; i < region.points.cols(); ++i) {
-    region.points.col(i) = mesh.point(region.vertices[i]);
-  }
+  load_points(mesh, region);
   std::vector<char> on_surface(region.n_free, 0);
   for (CellHandle c : cells) {
     HexCorners& hex = region.hexes.emplace_back();
@@ -102,6 +100,12 @@ Region make_region(const HexMesh& mesh, std::span<const CellHandle> cells) {
     if (on_surface[v]) region.surface.push_back(v);
   }
   return region;
+}
+
+void load_points(const HexMesh& mesh, Region& region) {
+  for (Eigen::Index i = 0; i < region.points.cols(); ++i) {
+    region.points.col(i) = mesh.point(region.vertices[i]);
+  }
 }
 
 double store_points(const Region& region, HexMesh& mesh) {

@@ -35,6 +35,9 @@ std::vector<CellHandle> grow_cells(const HexMesh& mesh, std::span<const CellHand
 /// \throws InputError for a cell that is not live or occurs twice
 Region make_region(const HexMesh& mesh, std::span<const CellHandle> cells);
 
+/// Takes the points of the mesh as it is now.
+void load_points(const HexMesh& mesh, Region& region);
+
 /// Writes the free points back. \return largest move, model units
 double store_points(const Region& region, HexMesh& mesh);
 

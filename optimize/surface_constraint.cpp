@@ -70,7 +70,8 @@ std::vector<Deviation> deviations(const Region& region, const RegionNormals& nor
       result[q[k]].take(centre);
       // The quad on the other side runs along this edge the other way: one of the two looks at it.
       const int from = q[k], to = q[(k + 1) % 4];
-      if (from > to && from < region.n_free) continue;
+      const bool is_of_use = std::min(from, to) < region.n_free;
+      if (!is_of_use || (from > to && from < region.n_free)) continue;
       const double edge = signed_distance((p[k] + p[(k + 1) % 4]) / 2, near_quad[i].middles[k]);
       result[from].take(edge);
       result[to].take(edge);
@@ -199,9 +200,10 @@ std::vector<SurfacePoint> SurfaceConstraint::closest_points(
   return closest;
 }
 
-std::vector<SurfaceGoal> SurfaceConstraint::goals(const Region& region) {
+std::vector<SurfaceGoal> SurfaceConstraint::goals(const Region& region,
+                                                  const SurfaceOptions& options) {
   const RegionNormals normals(region);
-  const double half_angle = options_.feature_angle_deg * std::numbers::pi / 360;
+  const double half_angle = options.feature_angle_deg * std::numbers::pi / 360;
   const double threshold = std::sin(half_angle) * std::sin(half_angle);
   const std::vector<SurfacePoint> closest = closest_points(region, normals.vertex);
   std::vector<char> at_feature(region.points.cols(), 0), plane(region.points.cols(), 0);
@@ -228,7 +230,7 @@ std::vector<SurfaceGoal> SurfaceConstraint::goals(const Region& region) {
     }
     plane[v] = goals.back().fixed.trace() < 1.5;
   }
-  if (options_.treatment == SurfaceTreatment::project) return goals;
+  if (options.treatment == SurfaceTreatment::project) return goals;
   if (reference_.curves().n_lines() > 0) fit_lines(region, reference_.curves(), labels_, goals);
   fit_planes(region, normals, reference_, plane, near_quad_, goals);
   return goals;
@@ -236,7 +238,7 @@ std::vector<SurfaceGoal> SurfaceConstraint::goals(const Region& region) {
 
 std::vector<SurfaceGoal> surface_goals(const Region& region, const ReferenceSurface& reference,
                                        const SurfaceOptions& options) {
-  return SurfaceConstraint(region, reference, options).goals(region);
+  return SurfaceConstraint(region, reference).goals(region, options);
 }
 
 }  // namespace hexweft

@@ -53,11 +53,10 @@ class SurfaceConstraint {
  public:
   /// Later calls take the same region with other points.
   /// \param reference  must outlive this
-  SurfaceConstraint(const Region& region, const ReferenceSurface& reference,
-                    const SurfaceOptions& options);
+  SurfaceConstraint(const Region& region, const ReferenceSurface& reference);
 
   /// One for each vertex of region.surface, in that order.
-  std::vector<SurfaceGoal> goals(const Region& region);
+  std::vector<SurfaceGoal> goals(const Region& region, const SurfaceOptions& options = {});
 
   /// Replaces `pulls`, for the region at `points`, by those of `weight` / (edge length at the vertex)².
   void pulls(const Eigen::Matrix3Xd& points, const std::vector<SurfaceGoal>& goals, double weight,
@@ -75,7 +74,6 @@ class SurfaceConstraint {
                                            const Eigen::Matrix3Xd& vertex_normals);
 
   const ReferenceSurface& reference_;
-  SurfaceOptions options_;
   std::vector<FeatureLabel> labels_;      // by vertex
   std::vector<int> near_vertex_;          // triangle last closest, by vertex of region.surface
   std::vector<NearTriangles> near_quad_;  // and to the samples of each quad

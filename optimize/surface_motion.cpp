@@ -6,10 +6,8 @@
 
 namespace hexweft {
 
-SurfaceConstraint::SurfaceConstraint(const Region& region, const ReferenceSurface& reference,
-                                     const SurfaceOptions& options)
+SurfaceConstraint::SurfaceConstraint(const Region& region, const ReferenceSurface& reference)
     : reference_(reference),
-      options_(options),
       labels_(assign_features(region.points, region.quads, region.n_free, reference)),
       near_vertex_(region.surface.size(), -1),
       near_quad_(region.quads.size()) {

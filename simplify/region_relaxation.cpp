@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <iterator>
 
+#include "optimize/hex_energy.h"
 #include "ovm/dual.h"
 #include "ovm/edit/split_sheet.h"
-#include "ovm/quality.h"
 
 namespace hexweft {
 namespace {
@@ -142,6 +142,7 @@ class RegionRelaxation {
                  [&](CellHandle c) { return mesh.is_live(c); });
     std::sort(region.begin(), region.end());
     region_ = std::move(region);
+    parametrization_.reset();
     touched_.insert(touched_.end(), split.removed.begin(), split.removed.end());
     touched_.insert(touched_.end(), split.cells.begin(), split.cells.end());
     std::sort(touched_.begin(), touched_.end());
@@ -158,7 +159,8 @@ class RegionRelaxation {
     constexpr int kUntanglingRounds = 2;
     p.untangling_rounds = std::min(p.untangling_rounds, kUntanglingRounds);
     p.untangle_widely = false;
-    const ParametrizationReport report = parametrize(context_.mesh, region_, context_.reference, p);
+    if (!parametrization_) parametrization_.emplace(context_.mesh, region_, context_.reference);
+    const ParametrizationReport report = parametrization_->run(context_.mesh, p);
     moved_ = {report.min_scaled_jacobian, report.mean_scaled_jacobian};
     worst_cell_.reset();
     if (!report.valid()) {
@@ -183,12 +185,10 @@ class RegionRelaxation {
 
   Eigen::Vector3d place_of_worst_cell() const {
     const HexMesh& mesh = context_.mesh;
-    const auto worst =
-        std::min_element(region_.begin(), region_.end(), [&](CellHandle a, CellHandle b) {
-          return scaled_jacobian(mesh, a) < scaled_jacobian(mesh, b);
-        });
+    const std::vector<double> sj = scaled_jacobians(mesh, region_);
+    const CellHandle worst = region_[std::min_element(sj.begin(), sj.end()) - sj.begin()];
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (VertexHandle v : mesh.vertices(*worst)) sum += mesh.point(v);
+    for (VertexHandle v : mesh.vertices(worst)) sum += mesh.point(v);
     return sum / 8;
   }
 
@@ -209,12 +209,13 @@ class RegionRelaxation {
 
   TrialContext& context_;
   const SimplifyOptions& options_;
-  int width_;                                  // of what was collapsed, layers
-  int most_cells_;                             // that the mesh may have
-  std::vector<CellHandle> region_;             // moves
-  std::vector<CellHandle> touched_;            // moved, or gone
-  double least_, mean_;                        // floors of the scaled Jacobian
-  Quality moved_;                              // of the region, after the last move
+  int width_;                                             // of what was collapsed, layers
+  int most_cells_;                                        // that the mesh may have
+  std::vector<CellHandle> region_;                        // moves
+  std::optional<RegionParametrization> parametrization_;  // of the region
+  std::vector<CellHandle> touched_;                       // moved, or gone
+  double least_, mean_;                                   // floors of the scaled Jacobian
+  Quality moved_;                                         // of the region, after the last move
   std::optional<Eigen::Vector3d> worst_cell_;  // where the last move left it below the floor
 };
 

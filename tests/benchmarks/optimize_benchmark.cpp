@@ -45,7 +45,7 @@ RelaxationProblem make_problem(const HexMesh& mesh, const ReferenceSurface& refe
   problem.n_free = region.n_free;
   problem.hexes = region.hexes;
   problem.targets = target_cuboids(region, {.blend_passes = 0});
-  SurfaceConstraint constraint(region, reference, {});
+  SurfaceConstraint constraint(region, reference);
   constraint.pulls(region.points, constraint.goals(region), 1e3, problem.pulls);
   return problem;
 }

@@ -201,6 +201,25 @@ TEST(Parametrize, UntanglesWhatLiesRoundAFlatPlaceWithoutTheRest) {
   }
 }
 
+TEST(RegionParametrization, GoesOnFromWhereTheMeshIs) {
+  const HexMesh start = make_octree_like(Shape::blob, 12, 1);
+  const auto reference = make_reference_surface(start);
+  const CellHandle seed[1] = {CellHandle(start.n_cells() / 2)};
+  const auto region = grow_cells(start, seed, 3);
+  const ParametrizationOptions fitting = {.surface = {.treatment = SurfaceTreatment::fit}};
+  HexMesh once = start, again = start;
+  RegionParametrization kept(again, region, reference);
+  for (const ParametrizationOptions& options : {ParametrizationOptions(), fitting}) {
+    for (HexMesh* mesh : {&once, &again}) {  // as a rollback would, between two runs
+      const VertexHandle v = make_region(*mesh, region).vertices[0];
+      mesh->set_point(v, start.point(v));
+    }
+    const double expected = parametrize(once, region, reference, options).min_scaled_jacobian;
+    EXPECT_NEAR(kept.run(again, options).min_scaled_jacobian, expected, 1e-9);
+  }
+  for (VertexHandle v : start.vertices()) EXPECT_LT((once.point(v) - again.point(v)).norm(), 1e-9);
+}
+
 TEST(Parametrize, ReportsWhatItCouldNotRepair) {
   HexMesh mesh = make_grid({3, 3, 3});
   const auto reference = make_reference_surface(mesh);

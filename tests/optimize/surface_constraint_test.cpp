@@ -104,7 +104,7 @@ TEST(SurfaceConstraint, PullsScaleWithTheEdgeLength) {
   const HexMesh cube = make_grid({2, 2, 2}, kBox);
   const ReferenceSurface reference = make_reference_surface(cube);
   const Region region = make_region(cube, all_cells(cube));
-  SurfaceConstraint constraint(region, reference, {});
+  SurfaceConstraint constraint(region, reference);
   const auto goals = constraint.goals(region);
   std::vector<VertexPull> pulls;
   constraint.pulls(region.points, goals, 8, pulls);
@@ -125,7 +125,7 @@ TEST(SurfaceConstraint, AMoveEndsBeforeAHexahedronInverts) {
                      Eigen::Matrix3d::Identity()});
   }
   const ReferenceSurface reference = make_reference_surface(cube);
-  const SurfaceConstraint constraint(region, reference, {});
+  const SurfaceConstraint constraint(region, reference);
   EXPECT_LT(constraint.move_to_goals(region, goals, 0.15), 1);
   for (double sj : scaled_jacobians(region.points, region.hexes)) EXPECT_GE(sj, 0.15);
 }
