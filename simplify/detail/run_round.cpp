@@ -19,7 +19,7 @@ constexpr double kShortOfCells = 0.85;
 // Below so many times the components that are asked for they are counted after every collapse.
 constexpr double kNearTarget = 2;
 // A verified copy of the mesh is kept whenever the components have fallen by this factor.
-constexpr double kVerifyEvery = 0.5;
+constexpr double kVerifyEvery = 0.25;
 
 }  // namespace
 
