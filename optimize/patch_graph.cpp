@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
 #include <numbers>
-#include <tuple>
+#include <numeric>
 
 #include <Eigen/Geometry>
 
@@ -12,7 +13,18 @@ namespace hexweft {
 PatchGraph::PatchGraph(const Eigen::Matrix3Xd& points, std::span<const std::array<int, 4>> quads)
     : first_(points.cols() + 1, 0), mean_(points.cols(), 0) {
   const double bent = std::cos(25 * std::numbers::pi / 180);
-  std::vector<std::tuple<int, int, int>> sides;  // from, to, quad; both ways
+  // Each side of a quad both ways, by where it begins.
+  std::vector<int> begin(points.cols() + 1, 0);
+  for (const auto& q : quads) {
+    for (int v : q) begin[v + 1] += 2;
+  }
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  struct Side {
+    int to, quad;
+    auto operator<=>(const Side&) const = default;
+  };
+  std::vector<Side> sides(begin.back());
+  std::vector<int> end(begin.begin(), begin.end() - 1);
   std::vector<Eigen::Vector3d> normals;
   for (const auto& q : quads) {
     const auto id = static_cast<int>(normals.size());
@@ -20,25 +32,22 @@ PatchGraph::PatchGraph(const Eigen::Matrix3Xd& points, std::span<const std::arra
     const Eigen::Vector3d d2 = points.col(q[3]) - points.col(q[1]);
     normals.push_back(d1.cross(d2).normalized());
     for (int k = 0; k < 4; ++k) {
-      sides.emplace_back(q[k], q[(k + 1) % 4], id);
-      sides.emplace_back(q[(k + 1) % 4], q[k], id);
+      const int from = q[k], to = q[(k + 1) % 4];
+      sides[end[from]++] = {to, id};
+      sides[end[to]++] = {from, id};
     }
   }
-  std::sort(sides.begin(), sides.end());
-  for (std::size_t i = 0, next = 0; i < sides.size(); i = next) {
-    const auto& [from, to, quad] = sides[i];
-    for (next = i + 1; next < sides.size() && std::get<0>(sides[next]) == from;) {
-      if (std::get<1>(sides[next]) != to) break;
-      ++next;
+  for (int v = 0; v < points.cols(); ++v) {
+    std::sort(sides.begin() + begin[v], sides.begin() + begin[v + 1]);
+    for (int i = begin[v], next = i; i < begin[v + 1]; i = next) {
+      const auto [to, quad] = sides[i];
+      while (next < begin[v + 1] && sides[next].to == to) ++next;
+      const bool pair = next == i + 2;
+      const double length = (points.col(to) - points.col(v)).norm();
+      edges_.push_back({to, length, pair && normals[quad].dot(normals[sides[i + 1].quad]) < bent});
+      mean_[v] += length;
+      ++first_[v + 1];
     }
-    const bool pair = next == i + 2;
-    const double length = (points.col(to) - points.col(from)).norm();
-    edges_.push_back(
-        {to, length, pair && normals[quad].dot(normals[std::get<2>(sides[i + 1])]) < bent});
-    mean_[from] += length;
-    ++first_[from + 1];
-  }
-  for (std::size_t v = 0; v + 1 < first_.size(); ++v) {
     if (first_[v + 1] > 0) mean_[v] /= first_[v + 1];
     first_[v + 1] += first_[v];
   }
