@@ -27,7 +27,7 @@ class Parametrization {
         goal_pulls_(std::move(goals)),
         lengths_(edge_lengths_at_vertices(region_)),
         constraint_(constraint),
-        goals_(surface_goals()) {
+        goals_(find_goals()) {
     problem_.n_free = region_.n_free;
     problem_.hexes = region_.hexes;
     problem_.targets = target_cuboids(region_, options_.target);
@@ -36,7 +36,7 @@ class Parametrization {
   ParametrizationReport run();
 
  private:
-  std::vector<SurfaceGoal> surface_goals() { return constraint_.goals(region_, options_.surface); }
+  std::vector<SurfaceGoal> find_goals() { return constraint_.goals(region_, options_.surface); }
   double least_determinant() const {
     const auto d = min_relative_determinants(region_.points, region_.hexes, problem_.targets);
     return d.empty() ? 1 : *std::min_element(d.begin(), d.end());
@@ -131,7 +131,7 @@ bool Parametrization::untangle(ProblemPart* part) {
     energy.epsilon = FoldoverFree::epsilon_for(least - kFlat);
     relax_once(energy, kIterations, part);
     problem_.targets = target_cuboids(region_, options_.target);
-    if ((round + 1) % kRoundsPerGoal == 0) goals_ = surface_goals();
+    if ((round + 1) % kRoundsPerGoal == 0) goals_ = find_goals();
     const double now = least_determinant();
     if (now > kFlat) return true;
     rounds_without_gain = now > least + 0.1 * std::abs(least) ? 0 : rounds_without_gain + 1;
@@ -163,7 +163,7 @@ void Parametrization::iterate(const Energy& energy, int iterations) {
     weigh_bad_hexes();
     problem_.stay_valid = true;  // an energy without a barrier would let corners through
     if (!relax_once(energy, options_.relaxation_iterations).feasible) break;
-    goals_ = surface_goals();
+    goals_ = find_goals();
     report_.on_surface = constraint_.move_to_goals(region_, goals_, options_.least_on_projection);
     ++report_.iterations;
     now = measure();

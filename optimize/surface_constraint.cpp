@@ -68,10 +68,10 @@ std::vector<Deviation> deviations(const Region& region, const RegionNormals& nor
     const double centre = signed_distance((p[0] + p[2]) / 2, near_quad[i].centre);
     for (int k = 0; k < 4; ++k) {
       result[q[k]].take(centre);
-      // The quad on the other side runs along this edge the other way: one of the two looks at it.
       const int from = q[k], to = q[(k + 1) % 4];
-      const bool is_of_use = std::min(from, to) < region.n_free;
-      if (!is_of_use || (from > to && from < region.n_free)) continue;
+      if (std::min(from, to) >= region.n_free) continue;  // nothing there will move
+      // The quad on the other side runs along this edge the other way: one of the two looks at it.
+      if (from > to && from < region.n_free) continue;
       const double edge = signed_distance((p[k] + p[(k + 1) % 4]) / 2, near_quad[i].middles[k]);
       result[from].take(edge);
       result[to].take(edge);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "optimize/feature_assignment.h"
+#include "optimize/groups.h"
 #include "optimize/reference_surface.h"
 #include "optimize/region.h"
 #include "optimize/relaxation.h"
@@ -78,7 +79,7 @@ class SurfaceConstraint {
   std::vector<int> near_vertex_;          // triangle last closest, by vertex of region.surface
   std::vector<NearTriangles> near_quad_;  // and to the samples of each quad
   std::vector<HexCorners> hexes_;         // those with a free surface vertex
-  std::vector<int> first_, around_;       // those at region.surface[i]: around_[first_[i]] and on
+  Groups<int> around_;                    // those of them at each vertex of region.surface
 };
 
 /// Goals from the points as they are.

@@ -19,22 +19,20 @@ void SurfaceConstraint::find_hexes_at_surface(const Region& region) {
   for (std::size_t i = 0; i < region.surface.size(); ++i) {
     position[region.surface[i]] = static_cast<int>(i);
   }
-  first_.assign(region.surface.size() + 1, 0);
+  std::vector<int> n_around(region.surface.size(), 0);
   for (const HexCorners& hex : region.hexes) {
     bool touches = false;
     for (int v : hex) {
       if (position[v] < 0) continue;
-      ++first_[position[v] + 1];
+      ++n_around[position[v]];
       touches = true;
     }
     if (touches) hexes_.push_back(hex);
   }
-  for (std::size_t i = 0; i + 1 < first_.size(); ++i) first_[i + 1] += first_[i];
-  around_.resize(first_.back());
-  std::vector<int> next(first_.begin(), first_.end() - 1);
-  for (std::size_t h = 0; h < hexes_.size(); ++h) {
+  around_ = Groups<int>(n_around);
+  for (int h = 0; h < static_cast<int>(hexes_.size()); ++h) {
     for (int v : hexes_[h]) {
-      if (position[v] >= 0) around_[next[position[v]]++] = static_cast<int>(h);
+      if (position[v] >= 0) around_.add(position[v], h);
     }
   }
 }
@@ -42,17 +40,17 @@ void SurfaceConstraint::find_hexes_at_surface(const Region& region) {
 void SurfaceConstraint::pulls(const Eigen::Matrix3Xd& points, const std::vector<SurfaceGoal>& goals,
                               double weight, std::vector<VertexPull>& pulls) const {
   pulls.clear();
-  for (std::size_t i = 0; i < goals.size(); ++i) {
+  for (int i = 0; i < static_cast<int>(goals.size()); ++i) {
     const SurfaceGoal& g = goals[i];
     double sum = 0;  // of squared lengths of the edges at the vertex, in every hexahedron
-    for (int k = first_[i]; k < first_[i + 1]; ++k) {
-      const HexCorners& hex = hexes_[around_[k]];
+    for (int h : around_[i]) {
+      const HexCorners& hex = hexes_[h];
       for (const auto& [a, b] : kEdgeCorners) {
         if (hex[a] != g.vertex && hex[b] != g.vertex) continue;
         sum += (points.col(hex[a]) - points.col(hex[b])).squaredNorm();
       }
     }
-    const double squared = std::max(sum / (3 * (first_[i + 1] - first_[i])), 1e-300);
+    const double squared = std::max(sum / (3 * static_cast<double>(around_[i].size())), 1e-300);
     pulls.push_back({g.vertex, weight / squared * g.fixed, g.point});
   }
 }
@@ -73,9 +71,9 @@ double SurfaceConstraint::move_to_goals(Region& region, const std::vector<Surfac
     const std::vector<double> now = scaled_jacobians(region.points, hexes_);
     const auto falls = [&](int h) { return now[h] < std::min(least, before[h]); };
     bool good = true;
-    for (std::size_t i = 0; i < goals.size(); ++i) {
-      const auto first = around_.begin() + first_[i], last = around_.begin() + first_[i + 1];
-      if (fraction[i] == 0 || std::none_of(first, last, falls)) continue;
+    for (int i = 0; i < static_cast<int>(goals.size()); ++i) {
+      const auto hexes = around_[i];
+      if (fraction[i] == 0 || std::none_of(hexes.begin(), hexes.end(), falls)) continue;
       fraction[i] = round + 1 >= kHalvings ? 0 : fraction[i] / 2;
       good = false;
     }

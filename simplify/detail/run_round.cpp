@@ -18,7 +18,7 @@ constexpr int kComponentsPerChord = 500;
 constexpr double kShortOfCells = 0.85;
 // Below so many times the components that are asked for they are counted after every collapse.
 constexpr double kNearTarget = 2;
-// A verified copy of the mesh is kept whenever the components have fallen by this factor.
+// A verified copy of the mesh is kept whenever the components have fallen to this share.
 constexpr double kVerifyEvery = 0.25;
 
 }  // namespace
