@@ -6,6 +6,8 @@
 namespace hexweft {
 namespace {
 
+constexpr int kHalvings = 2;  // of the way that is taken back, then all of it
+
 class PartialMove {
  public:
   PartialMove(HexMesh& mesh, const Region& before, SurfaceDistance& distance,
@@ -15,6 +17,7 @@ class PartialMove {
         distance_(distance),
         limits_(limits),
         distance_before_(distance.distance()),
+        side_distances_before_(side_distances()),
         scaled_jacobians_(scaled_jacobians(before.points, before.hexes)),
         goal_(before.points),
         points_(before.points),
@@ -26,9 +29,11 @@ class PartialMove {
   bool run();
 
  private:
+  std::vector<double> side_distances() const;
   void place();
   bool mark_bad_hexes();
   bool mark_far_sides();
+  bool mark_far_between();
   void widen_marks();
   bool take_back(bool all_the_way);
   void take_back_round_marks(int round);
@@ -38,12 +43,25 @@ class PartialMove {
   const Region& before_;
   SurfaceDistance& distance_;
   const MoveLimits& limits_;
-  double distance_before_;                // of the whole surface, model units
-  std::vector<double> scaled_jacobians_;  // before the move
+  double distance_before_;                     // of the whole surface, model units
+  std::vector<double> side_distances_before_;  // model units
+  std::vector<double> scaled_jacobians_;       // before the move
   Eigen::Matrix3Xd goal_, points_;
   std::vector<double> fraction_;  // of the way to the goal
   std::vector<char> marked_;      // vertices to take back
 };
+
+/// Six a cell, model units.
+std::vector<double> PartialMove::side_distances() const {
+  std::vector<double> by_side;
+  by_side.reserve(kSides * before_.cells.size());
+  for (CellHandle c : before_.cells) {
+    for (int k = 0; k < kSides; ++k) {
+      by_side.push_back(distance_.distance_at(HalfFaceHandle(kSides * c.idx + k)));
+    }
+  }
+  return by_side;
+}
 
 void PartialMove::place() {
   for (int v = 0; v < before_.n_free; ++v) {
@@ -65,29 +83,40 @@ bool PartialMove::mark_bad_hexes() {
   return any;
 }
 
-/// Brings the distance up to date. What was too far before, elsewhere, is not
-/// this move's fault. \return whether any side is too far
+/// Brings the distance up to date. A side that was too far before may stay so, if it gets no
+/// farther. \return whether any side is too far
 bool PartialMove::mark_far_sides() {
   const double d = distance_.after_change(mesh_, before_.cells);
   if (d <= limits_.distance) return false;
-  std::vector<double> by_side;  // six a cell
-  by_side.reserve(kSides * before_.cells.size());
-  for (CellHandle c : before_.cells) {
-    for (int k = 0; k < kSides; ++k) {
-      by_side.push_back(distance_.distance_at(HalfFaceHandle(kSides * c.idx + k)));
-    }
+  const std::vector<double> now = side_distances();
+  const auto got_farther = [&](std::size_t side) {
+    return now[side] > side_distances_before_[side];
+  };
+  double farthest = 0;
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    if (got_farther(i)) farthest = std::max(farthest, now[i]);
   }
-  const double farthest = *std::max_element(by_side.begin(), by_side.end());
   if (farthest <= limits_.distance && d <= distance_before_) return false;
   // Those about as far as the farthest go back with it: they would be the next.
   constexpr double kClose = 0.9;
   const double threshold = std::min(limits_.distance, kClose * farthest);
-  for (std::size_t i = 0; i < before_.cells.size(); ++i) {
-    for (int k = 0; k < kSides; ++k) {
-      if (by_side[kSides * i + k] < threshold) continue;
-      for (int corner : kSideCorners[k]) marked_[before_.hexes[i][corner]] = 1;
-    }
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    if (now[i] < threshold || !got_farther(i)) continue;
+    for (int corner : kSideCorners[i % kSides]) marked_[before_.hexes[i / kSides][corner]] = 1;
   }
+  return true;
+}
+
+/// Looks between the samples, which only those that come near the limit need.
+/// \return whether a place there is too far; the first that is found is marked
+bool PartialMove::mark_far_between() {
+  constexpr double kSafe = 0.9, kSuspect = 0.6;
+  if (distance_.distance() <= kSafe * limits_.between) return false;
+  if (distance_.change_is_within(limits_.between, kSuspect)) return false;
+  Eigen::Index nearest;
+  (points_.colwise() - *distance_.too_far_at()).colwise().squaredNorm().minCoeff(&nearest);
+  marked_[nearest] = 1;
+  widen_marks();
   return true;
 }
 
@@ -113,8 +142,7 @@ bool PartialMove::take_back(bool all_the_way) {
 /// Takes the marked vertices back, with ever more of their surroundings the
 /// more rounds there were.
 void PartialMove::take_back_round_marks(int round) {
-  constexpr int kHalvings = 2;  // then all the way
-  constexpr int kNarrow = 4;    // rounds, then the surroundings too
+  constexpr int kNarrow = 4;  // rounds, then the surroundings too
   for (int i = kNarrow; i <= round; ++i) widen_marks();
   // Where all that is marked is back already, the cause lies beside it.
   for (int i = 0; !take_back(round >= kHalvings) && i < 3; ++i) widen_marks();
@@ -135,10 +163,17 @@ bool PartialMove::mend_hexes() {
 bool PartialMove::run() {
   constexpr int kRounds = 10;
   place();
-  for (int round = 0; round < kRounds && mend_hexes(); ++round) {
+  for (int at_samples = 0, between = 0;
+       at_samples < kRounds && between < kRounds && mend_hexes();) {
     std::fill(marked_.begin(), marked_.end(), 0);
-    if (!mark_far_sides()) return true;
-    take_back_round_marks(round);
+    if (mark_far_sides()) {
+      take_back_round_marks(at_samples++);
+    } else if (mark_far_between()) {
+      take_back_round_marks(kHalvings);
+      ++between;
+    } else {
+      return true;
+    }
   }
   distance_.rollback();
   return false;

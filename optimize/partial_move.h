@@ -6,6 +6,8 @@
 ///     if (keep_what_fits(mesh, before, distance, limits)) { ...; distance.commit(); }
 #pragma once
 
+#include <limits>
+
 #include "optimize/region.h"
 #include "optimize/surface_distance.h"
 
@@ -13,11 +15,15 @@ namespace hexweft {
 
 struct MoveLimits {
   double least_scaled_jacobian;  ///< no hexahedron ends below this, nor falls if it was below it
-  double distance;               ///< model units
+  /// Model units; of the samples of every side that moves, unless it was farther before.
+  double distance;
+  /// Model units; of what moves, also between the samples.
+  double between = std::numeric_limits<double>::infinity();
 };
 
 /// Takes vertices back towards where they were, half the way and in the end all of it, round every
-/// hexahedron and side that breaks a limit, in ever wider surroundings.
+/// hexahedron and side that breaks a limit, in ever wider surroundings; all the way at once round a
+/// place between the samples.
 /// \param before    the region as it was; only its free vertices have moved
 /// \param distance  of the mesh before the move; afterwards, if true, up to date but not committed
 /// \return false if no part of the move fits; the points are then anything between

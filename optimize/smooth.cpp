@@ -72,9 +72,8 @@ class Smoother {
  private:
   bool attempt(const std::vector<CellHandle>& cells, const ParametrizationOptions& options,
                const Aim& aim);
-  bool keep_gain(const Region& before, const Eigen::Matrix3Xd& goal, const Aim& aim);
+  bool keep_gain(const Region& before, const Aim& aim);
   bool gains(const Measure& before, const Measure& now, std::size_t n_cells, const Aim& aim);
-  bool is_on_surface();
   void relax_for_least();
   void relax_for_mean();
   void relax_worst_cells();
@@ -107,28 +106,14 @@ bool Smoother::gains(const Measure& before, const Measure& now, std::size_t n_ce
   return true;
 }
 
-/// Looks between the samples too, which only those that come near the limit need.
-bool Smoother::is_on_surface() {
-  constexpr double kSafe = 0.85, kSuspect = 0.6;
+/// Keeps of the move what fits, if it gains. The distance is up to date if so, else as it was.
+bool Smoother::keep_gain(const Region& before, const Aim& aim) {
   constexpr double kMargin = 0.95;  // hausdorff_distance() looks closer still at large triangles
-  return distance_.distance() <= kSafe * limit_ ||
-         distance_.change_is_within(kMargin * limit_, kSuspect);
-}
-
-/// Keeps of the move to `goal` what fits, if it gains. The distance is up to date if so, else as it
-/// was.
-bool Smoother::keep_gain(const Region& before, const Eigen::Matrix3Xd& goal, const Aim& aim) {
+  const MoveLimits limits = {aim.floor, aim.room * limit_, kMargin * limit_};
+  if (!keep_what_fits(mesh_, before, distance_, limits)) return false;
   const Measure old = measure(scaled_jacobians(before.points, before.hexes));
-  const double mean = mean_;
-  for (const double room : {aim.room, 0.93 * aim.room, 0.85 * aim.room}) {
-    for (int v = 0; v < before.n_free; ++v) mesh_.set_point(before.vertices[v], goal.col(v));
-    if (!keep_what_fits(mesh_, before, distance_, {aim.floor, room * limit_})) return false;
-    const bool gained = gains(old, measure(quality(mesh_, before.cells)), before.cells.size(), aim);
-    if (gained && is_on_surface()) return true;
-    distance_.rollback();
-    mean_ = mean;
-    if (!gained) return false;
-  }
+  if (gains(old, measure(quality(mesh_, before.cells)), before.cells.size(), aim)) return true;
+  distance_.rollback();
   return false;
 }
 
@@ -139,17 +124,15 @@ bool Smoother::attempt(const std::vector<CellHandle>& cells, const Parametrizati
   Transaction trial(mesh_);
   const Region before = make_region(mesh_, cells);
   parametrize(mesh_, cells, distance_.reference(), options);
-  Eigen::Matrix3Xd goal(3, before.n_free);
-  for (int v = 0; v < before.n_free; ++v) goal.col(v) = mesh_.point(before.vertices[v]);
-  if (!keep_gain(before, goal, aim)) return false;
+  if (!keep_gain(before, aim)) return false;
   distance_.commit();
   trial.commit();
   return true;
 }
 
 /// Whole-mesh passes, while they gain something, which leave a part of the distance for the worst
-/// cells. Where one gains nothing, the other treatment of the surface is tried, with volumes as they
-/// are and all of the distance; and after that the options as they were given.
+/// cells. Where one gains nothing, the other treatment of the surface is tried, with all of the
+/// distance; and after that the options as they were given.
 void Smoother::relax_for_least() {
   constexpr double kRoom = 0.8;
   constexpr int kTries = 3;
@@ -161,7 +144,6 @@ void Smoother::relax_for_least() {
     if (failed == 1) {
       const bool fit = o.surface.treatment == SurfaceTreatment::fit;
       o.surface.treatment = fit ? SurfaceTreatment::project : SurfaceTreatment::fit;
-      o.target.volume_passes = 0;
     }
     if (attempt(cells_, o, {least, kLeastGain, kMeanGain, failed > 0 ? 1 : kRoom})) {
       ++report_.accepted_global;
@@ -173,9 +155,9 @@ void Smoother::relax_for_least() {
 }
 
 void Smoother::relax_for_mean() {
-  const ParametrizationOptions o = options_for_mean(options_.parametrization);
   for (int round = 0; round < options_.mean_rounds && !stopped(); ++round) {
     const double least = measure(quality(mesh_, cells_)).least;
+    const ParametrizationOptions o = options_for_mean(options_.parametrization, least);
     if (!attempt(cells_, o, {least, kLeastGain, kMeanGain})) break;
     ++report_.accepted_global;
   }
@@ -193,15 +175,17 @@ bool Smoother::relax_round(CellHandle worst, double least_gain) {
   const Rung ladder[] = {{2, p.surface.weight, p.least_on_projection},
                          {2, 0.03 * p.surface.weight, 0.5},
                          {4, 0.03 * p.surface.weight, 0.5}};
-  ParametrizationOptions o = p;
-  o.quality_goal = 1;
-  o.quality_weight_limit = 1e3;
   const CellHandle seed[1] = {worst};
   for (const Rung& rung : ladder) {
     moved_ = grow_cells(mesh_, seed, rung.rings);
+    const double floor = measure(quality(mesh_, moved_)).least + least_gain;
+    ParametrizationOptions o = p;
     o.surface.weight = rung.surface_weight;
     o.least_on_projection = rung.least_on_projection;
-    const double floor = measure(quality(mesh_, moved_)).least + least_gain;
+    o.max_iterations = 4;
+    o.quality_goal = 1;
+    o.quality_weight_limit = 1e3;
+    o = options_for_least(o, floor);
     if (!o.energy.barrier()) o.min_scaled_jacobian = std::clamp(floor, 0.0, 0.9);
     if (attempt(moved_, o, {floor, least_gain, 1})) return true;
   }

@@ -15,7 +15,7 @@ struct SmoothingOptions {
   double hausdorff_limit_rel = 0.01;  ///< > 0, fraction of the reference's bounding-box diagonal
   int cycles = 2;          ///< > 0, of all the passes below; the next only if the last gained
   int global_rounds = 3;   ///< ≥ 0, passes over the whole mesh for the least scaled Jacobian
-  int mean_rounds = 2;     ///< ≥ 0, passes over the whole mesh for the mean and even volumes
+  int mean_rounds = 2;     ///< ≥ 0, passes over the whole mesh for the mean
   int local_trials = 200;  ///< ≥ 0, passes over the neighborhood of a worst cell
   double enough_scaled_jacobian =
       0.6;  ///< [0, 1], cells at least this good are not worked on one by one

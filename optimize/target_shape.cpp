@@ -44,30 +44,6 @@ void blend_along_axes(const Region& region, double blend, std::vector<TargetCubo
   }
 }
 
-void even_volumes(const Region& region, int passes, std::vector<TargetCuboid>& targets) {
-  if (passes == 0) return;
-  std::vector<double> volumes(targets.size()), before;
-  for (std::size_t h = 0; h < targets.size(); ++h) volumes[h] = targets[h].lengths.prod();
-  const std::vector<double> own = volumes;
-  for (int pass = 0; pass < passes; ++pass) {
-    before = volumes;
-    for (std::size_t h = 0; h < targets.size(); ++h) {
-      double sum = 0;
-      int n = 0;
-      for (int side = 0; side < kSides; ++side) {
-        const int other = region.neighbor_side[kSides * h + side];
-        if (other < 0) continue;
-        sum += before[other / kSides];
-        ++n;
-      }
-      if (n > 0) volumes[h] = (before[h] + sum / n) / 2;
-    }
-  }
-  for (std::size_t h = 0; h < targets.size(); ++h) {
-    targets[h].lengths *= std::cbrt(volumes[h] / own[h]);
-  }
-}
-
 }  // namespace
 
 std::vector<TargetCuboid> target_cuboids(const Region& region, const TargetShapeOptions& options) {
@@ -89,7 +65,6 @@ std::vector<TargetCuboid> target_cuboids(const Region& region, const TargetShape
   }
   for (int i = 0; i < options.blend_passes; ++i)
     blend_along_axes(region, options.size_blend, targets);
-  even_volumes(region, options.volume_passes, targets);
   return targets;
 }
 

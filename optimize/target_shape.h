@@ -13,15 +13,13 @@ namespace hexweft {
 struct TargetShapeOptions {
   double size_blend =
       0.5;  ///< [0, 1], how far lengths move to the mean with the neighbors on both sides
-  int blend_passes = 2;   ///< ≥ 0; each pass carries the evening one ring further
-  int volume_passes = 0;  ///< ≥ 0; each evens the volumes with those of the face neighbors
+  int blend_passes = 2;            ///< ≥ 0; each pass carries the evening one ring further
   double least_length_rel = 0.05;  ///< > 0, of the region's mean length: no target is thinner
 };
 
 /// Means of the lengths of the three sets of parallel edges, scaled to the volume. Along each axis
 /// the lengths are blended with those of the two neighbors across it, which spreads what a collapse
-/// has stretched over the layers beside it. Then volumes move half the way to the mean of those
-/// beside them, as often as asked for; lengths follow in proportion.
+/// has stretched over the layers beside it.
 std::vector<TargetCuboid> target_cuboids(const Region& region, const TargetShapeOptions& options);
 
 }  // namespace hexweft

@@ -57,7 +57,7 @@ void add_options(CLI::App& app, Request& request) {
       ->check(cli::in_range(0, 1e6))
       ->capture_default_str();
   app.add_option("--mean-iterations", o.mean_rounds,
-                 "The same for the average and even volumes, at the end")
+                 "The same for the average, at the end")
       ->check(cli::in_range(0, 1e6))
       ->capture_default_str();
   app.add_option("--local-trials", o.local_trials,

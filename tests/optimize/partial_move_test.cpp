@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "optimize/hausdorff.h"
 #include "ovm/transaction.h"
 #include "tests/optimize/test_meshes.h"
 
@@ -52,6 +53,42 @@ TEST(PartialMove, TakesBackOnlyWhereTheSurfaceLeavesTheLimit) {
   EXPECT_LE(f.distance.distance(), limit);
   EXPECT_EQ(f.mesh.point(near), near_goal);
   EXPECT_LT(f.mesh.point(far).norm(), 1.03);
+}
+
+TEST(PartialMove, LetsAFarSideStayWhereTheRestMoves) {
+  Fixture f;
+  VertexHandle far, near;
+  for (VertexHandle v : f.mesh.vertices()) {
+    if (!f.mesh.is_boundary(v)) continue;
+    if (f.mesh.point(v)[0] > 0.99) far = v;
+    if (f.mesh.point(v)[0] < -0.99) near = v;
+  }
+  f.mesh.set_point(far, 1.05 * f.mesh.point(far));
+  f.distance.after_change(f.mesh);
+  f.distance.commit();
+  const double limit = 0.5 * f.distance.distance();
+  f.before = make_region(f.mesh, all_cells(f.mesh));
+  const Eigen::Vector3d far_away = f.mesh.point(far);
+  const Eigen::Vector3d near_goal = 1.001 * f.mesh.point(near);
+  f.mesh.set_point(near, near_goal);
+  f.mesh.set_point(far, 1.01 * far_away);
+  EXPECT_TRUE(keep_what_fits(f.mesh, f.before, f.distance, {-1, limit}));
+  EXPECT_EQ(f.mesh.point(near), near_goal);
+  EXPECT_EQ(f.mesh.point(far), far_away);  // the farther it goes, the worse
+}
+
+TEST(PartialMove, HoldsALimitBetweenTheSamples) {
+  int taken_back = 0;
+  for (int seed = 1; seed <= 6; ++seed) {
+    Fixture f;
+    perturb(f.mesh, 0.02, true, seed);
+    const auto moved = points_of(f.mesh);
+    const double limit = 0.97 * hausdorff_distance(f.mesh, f.reference).distance();
+    EXPECT_TRUE(keep_what_fits(f.mesh, f.before, f.distance, {-1, 1, limit}));
+    EXPECT_TRUE(is_within(f.mesh, f.reference, limit)) << seed;
+    taken_back += points_of(f.mesh) != moved;
+  }
+  EXPECT_EQ(taken_back, 6);
 }
 
 TEST(PartialMove, LeavesTheDistanceToBeCommittedOrRolledBack) {

@@ -54,6 +54,26 @@ TEST(Smooth, GainsWhereTheWholeMoveWouldLeaveTheLimit) {
   }
 }
 
+TEST(Smooth, WholeMeshPassesGoOnWhereOneSideIsAtTheLimit) {
+  for (Shape shape : {Shape::blob, Shape::torus}) {
+    HexMesh mesh = make_octree_like(shape, 10, 1);
+    const auto reference = make_reference_surface(mesh);
+    perturb(mesh, 0.01, false, 4);
+    VertexHandle highest;
+    for (VertexHandle v : mesh.vertices()) {
+      if (!mesh.is_boundary(v)) continue;
+      if (!highest.valid() || mesh.point(v)[2] > mesh.point(highest)[2]) highest = v;
+    }
+    const double limit = 0.01 * reference.bounding_box_diagonal();
+    mesh.set_point(highest, mesh.point(highest) + Eigen::Vector3d(0, 0, 0.95 * limit));
+    const SmoothingReport r =
+        smooth(mesh, reference, {.global_rounds = 1, .mean_rounds = 0, .local_trials = 0});
+    EXPECT_GT(r.accepted_global, 0) << name(shape);
+    EXPECT_GT(r.mean_scaled_jacobian, r.initial_mean_scaled_jacobian) << name(shape);
+    EXPECT_LE(r.hausdorff_rel, 0.01) << name(shape);
+  }
+}
+
 TEST(Smooth, PassesForTheMeanRaiseItAndKeepTheLeast) {
   for (Shape shape : {Shape::blob, Shape::torus}) {
     HexMesh mesh = make_octree_like(shape, 10, 1);
