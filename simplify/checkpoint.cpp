@@ -52,8 +52,6 @@ Json to_json(const BoldTrials& r) {
   return {{"wanted", r.wanted},
           {"max_angle_deg", r.max_angle_deg},
           {"max_interior_valence", r.max_interior_valence},
-          {"min_scaled_jacobian", r.min_scaled_jacobian},
-          {"mean_scaled_jacobian", r.mean_scaled_jacobian},
           {"splits_per_trial", r.splits_per_trial},
           {"merged_give_up_factor", r.merged_give_up_factor},
           {"max_chord_deviation", r.max_chord_deviation}};

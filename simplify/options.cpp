@@ -26,8 +26,6 @@ void validate(const SimplifyOptions& o) {
   expect_floor("mean_scaled_jacobian", o.mean_scaled_jacobian);
   expect_floor("careful.min_scaled_jacobian", o.careful.min_scaled_jacobian);
   expect_floor("careful.mean_scaled_jacobian", o.careful.mean_scaled_jacobian);
-  expect_floor("bold.min_scaled_jacobian", o.bold.min_scaled_jacobian);
-  expect_floor("bold.mean_scaled_jacobian", o.bold.mean_scaled_jacobian);
   for (const double angle : {o.valence.max_angle_deg, o.bold.max_angle_deg}) {
     expect(angle > 0 && angle <= 360, "max_angle_deg", angle, "(0, 360]");
   }

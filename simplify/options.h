@@ -24,17 +24,14 @@ struct CarefulTrials {
 };
 
 /// Where no ordinary trial succeeds, bold ones are made: the ValenceLimits are wider, and sheets are
-/// split within the trial where the surface is left too far away. A boundary edge of a single cell
-/// costs quality: they have floors of their own.
+/// split within the trial where the surface is left too far away.
 struct BoldTrials {
   bool wanted = true;
   double max_angle_deg = 360;    ///< as in ValenceLimits
   int max_interior_valence = 8;  ///< > 2, as in ValenceLimits; what it unlocks may lower it again
-  double min_scaled_jacobian = 0.4;    ///< as in SimplifyOptions
-  double mean_scaled_jacobian = 0.85;  ///< as in SimplifyOptions
-  int splits_per_trial = 12;           ///< as in SimplifyOptions
-  double merged_give_up_factor = 4;    ///< as in SimplifyOptions
-  double max_chord_deviation = 1.2;    ///< as in SimplifyOptions, where that is not higher
+  int splits_per_trial = 12;     ///< as in SimplifyOptions
+  double merged_give_up_factor = 4;  ///< as in SimplifyOptions
+  double max_chord_deviation = 1.2;  ///< as in SimplifyOptions, where that is not higher
 };
 
 /// When to stop simplifying and what to preserve.

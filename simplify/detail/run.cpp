@@ -35,8 +35,6 @@ SimplifyOptions bold_options(SimplifyOptions options) {
   options.valence.max_angle_deg = options.bold.max_angle_deg;
   options.valence.max_interior =
       std::max(options.valence.max_interior, options.bold.max_interior_valence);
-  options.min_scaled_jacobian = options.bold.min_scaled_jacobian;
-  options.mean_scaled_jacobian = options.bold.mean_scaled_jacobian;
   options.splits_per_trial = options.bold.splits_per_trial;
   options.merged_give_up_factor = options.bold.merged_give_up_factor;
   options.max_chord_deviation =

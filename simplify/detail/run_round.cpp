@@ -176,7 +176,7 @@ bool Run::attempt(const Proposal& proposal, TrialCounts& counts, Turn& turn) {
       if (result.outlook) failed.memory.failed_with(*result.outlook, result.refusal);
     };
     remember(manner);
-    // Careful trials differ from ordinary ones in their floors only; bold trials ask for more quality.
+    // Careful trials differ from ordinary ones in their floors only; bold ones take away more yet.
     const bool has_another_chance = &manner == &careful_ && result.refusal == Refusal::quality;
     if (&manner == &careful_ && !has_another_chance) remember(ordinary_);
     if (&manner != &bold_ && is_of_shape(result.refusal)) remember(bold_);
