@@ -54,7 +54,7 @@ struct SimplifyOptions {
   /// full sampling
   int threads = 1;
   bool smooth = true;           ///< global smoothing at the end
-  int smoothing_trials = 200;   ///< >= 0, passes over the neighbourhoods of the worst cells then
+  int smoothing_trials = 300;   ///< >= 0, passes over the neighbourhoods of the worst cells then
   double give_up_factor = 1.5;  ///< >= 1; half relaxed and so many limits away, a trial ends
   double merged_give_up_factor = 2;  ///< >= 1; the same before anything has moved
   /// >= 0, sheets that a collapse may split where it leaves the surface too far away, two a layer and
