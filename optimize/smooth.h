@@ -18,7 +18,7 @@ struct SmoothingOptions {
   int mean_rounds = 2;     ///< ≥ 0, passes over the whole mesh for the mean
   int local_trials = 200;  ///< ≥ 0, passes over the neighborhood of a worst cell
   double enough_scaled_jacobian =
-      0.6;  ///< [0, 1], cells at least this good are not worked on one by one
+      0.7;  ///< [0, 1], cells at least this good are not worked on one by one
   ParametrizationOptions parametrization = {.surface = {.treatment = SurfaceTreatment::fit}};
   /// ≥ 0, what the distance at the start is known not to be over, as hausdorff_limit_rel; unset: it is
   /// measured, which takes a tenth of the time
