@@ -169,7 +169,7 @@ bool PartialMove::run() {
     if (mark_far_sides()) {
       take_back_round_marks(at_samples++);
     } else if (mark_far_between()) {
-      take_back_round_marks(kHalvings);
+      take_back_round_marks(kHalvings);  // all the way at once: each look costs much
       ++between;
     } else {
       return true;

@@ -1,8 +1,6 @@
 #include "optimize/smooth.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numeric>
 #include <optional>
 #include <string>
 #include <vector>

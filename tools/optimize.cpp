@@ -56,8 +56,7 @@ void add_options(CLI::App& app, Request& request) {
                  "Passes over the whole mesh for its worst hexahedra at most")
       ->check(cli::in_range(0, 1e6))
       ->capture_default_str();
-  app.add_option("--mean-iterations", o.mean_rounds,
-                 "The same for the average, at the end")
+  app.add_option("--mean-iterations", o.mean_rounds, "The same for the average, at the end")
       ->check(cli::in_range(0, 1e6))
       ->capture_default_str();
   app.add_option("--local-trials", o.local_trials,

@@ -18,6 +18,15 @@ struct Fixture {
   std::vector<double> quality = scaled_jacobians(before.points, before.hexes);
 };
 
+/// Of the ball. \param end  of the x axis, 1 or -1
+VertexHandle boundary_vertex_at_end(const HexMesh& mesh, double end) {
+  VertexHandle last;
+  for (VertexHandle v : mesh.vertices()) {
+    if (mesh.is_boundary(v) && end * mesh.point(v)[0] > 0.99) last = v;
+  }
+  return last;
+}
+
 TEST(PartialMove, KeepsAllOfAMoveThatFits) {
   Fixture f;
   perturb(f.mesh, 0.01, true, 1);
@@ -39,12 +48,8 @@ TEST(PartialMove, TakesBackWhatInverts) {
 TEST(PartialMove, TakesBackOnlyWhereTheSurfaceLeavesTheLimit) {
   Fixture f;
   const double limit = 0.02;
-  VertexHandle far, near;
-  for (VertexHandle v : f.mesh.vertices()) {
-    if (!f.mesh.is_boundary(v)) continue;
-    if (f.mesh.point(v)[0] > 0.99) far = v;
-    if (f.mesh.point(v)[0] < -0.99) near = v;
-  }
+  const VertexHandle far = boundary_vertex_at_end(f.mesh, 1);
+  const VertexHandle near = boundary_vertex_at_end(f.mesh, -1);
   ASSERT_TRUE(far.valid() && near.valid());
   f.mesh.set_point(far, 1.1 * f.mesh.point(far));
   f.mesh.set_point(near, 1.01 * f.mesh.point(near));
@@ -57,12 +62,9 @@ TEST(PartialMove, TakesBackOnlyWhereTheSurfaceLeavesTheLimit) {
 
 TEST(PartialMove, LetsAFarSideStayWhereTheRestMoves) {
   Fixture f;
-  VertexHandle far, near;
-  for (VertexHandle v : f.mesh.vertices()) {
-    if (!f.mesh.is_boundary(v)) continue;
-    if (f.mesh.point(v)[0] > 0.99) far = v;
-    if (f.mesh.point(v)[0] < -0.99) near = v;
-  }
+  const VertexHandle far = boundary_vertex_at_end(f.mesh, 1);
+  const VertexHandle near = boundary_vertex_at_end(f.mesh, -1);
+  ASSERT_TRUE(far.valid() && near.valid());
   f.mesh.set_point(far, 1.05 * f.mesh.point(far));
   f.distance.after_change(f.mesh);
   f.distance.commit();
