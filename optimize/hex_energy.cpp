@@ -62,16 +62,48 @@ struct ScaledJacobians {
   HEXWEFT_INLINE static void run(const double* points, const std::span<const HexCorners>& hexes,
                                  double* least) {
     for (std::size_t i = 0; i < hexes.size(); ++i) {
-      const Vec3<Lanes> x = kernels::gather(points, hexes[i]);
-      const Mat3<Lanes> edges = {{kernels::axis_sign(0) * (kernels::across<0>(x) - x),
-                                  kernels::axis_sign(1) * (kernels::across<1>(x) - x),
-                                  kernels::axis_sign(2) * (kernels::across<2>(x) - x)}};
+      const Mat3<Lanes> edges = kernels::corner_edges(kernels::gather(points, hexes[i]));
       const double corners = lane_min(scaled(edges)), middle = scaled(middle_edges(edges));
       const double worst = corners < middle ? corners : middle;
       least[i] = worst < 1 ? worst : 1;
     }
   }
 };
+
+struct ShapeMetrics {
+  HEXWEFT_INLINE static void run(const double* points, const std::span<const HexCorners>& hexes,
+                                 double* shape) {
+    for (std::size_t i = 0; i < hexes.size(); ++i) {
+      const Mat3<Lanes> edges = kernels::corner_edges(kernels::gather(points, hexes[i]));
+      const Lanes det = dot(edges.col[0], cross(edges.col[1], edges.col[2]));
+      const Lanes root = inverse_cube_root(det > 0.0 ? det : broadcast<Lanes>(1));
+      const double sum = lane_sum(squared_norm(edges) * root * root);
+      shape[i] = lane_min(det) > 0 ? 24 / sum : 0;
+    }
+  }
+};
+
+/// Runs a kernel of points, hexahedra and a result for each of them.
+template <class Kernel>
+std::vector<double> measure_cells(const HexMesh& mesh, std::span<const CellHandle> cells) {
+  constexpr std::size_t kAtOnce = 64;  // their points stay in the first cache
+  Eigen::Matrix<double, 3, 8 * kAtOnce> points;
+  std::array<HexCorners, kAtOnce> hexes;
+  for (std::size_t i = 0; i < kAtOnce; ++i)
+    std::iota(hexes[i].begin(), hexes[i].end(), static_cast<int>(8 * i));
+  const InstructionSet set = available(InstructionSet::automatic);
+  std::vector<double> result(cells.size());
+  for (std::size_t begin = 0; begin < cells.size(); begin += kAtOnce) {
+    const std::size_t n = std::min(kAtOnce, cells.size() - begin);
+    Eigen::Index to = 0;
+    for (CellHandle c : cells.subspan(begin, n)) {
+      for (VertexHandle v : mesh.vertices(c)) points.col(to++) = mesh.point(v);
+    }
+    kernels::run<Kernel>(set, points.data(), std::span<const HexCorners>(hexes.data(), n),
+                         result.data() + begin);
+  }
+  return result;
+}
 
 }  // namespace
 
@@ -122,23 +154,11 @@ std::vector<double> scaled_jacobians(const Eigen::Matrix3Xd& points,
 }
 
 std::vector<double> scaled_jacobians(const HexMesh& mesh, std::span<const CellHandle> cells) {
-  constexpr std::size_t kAtOnce = 64;  // their points stay in the first cache
-  Eigen::Matrix<double, 3, 8 * kAtOnce> points;
-  std::array<HexCorners, kAtOnce> hexes;
-  for (std::size_t i = 0; i < kAtOnce; ++i)
-    std::iota(hexes[i].begin(), hexes[i].end(), static_cast<int>(8 * i));
-  const InstructionSet set = available(InstructionSet::automatic);
-  std::vector<double> least(cells.size());
-  for (std::size_t begin = 0; begin < cells.size(); begin += kAtOnce) {
-    const std::size_t n = std::min(kAtOnce, cells.size() - begin);
-    Eigen::Index to = 0;
-    for (CellHandle c : cells.subspan(begin, n)) {
-      for (VertexHandle v : mesh.vertices(c)) points.col(to++) = mesh.point(v);
-    }
-    kernels::run<ScaledJacobians>(set, points.data(), std::span<const HexCorners>(hexes.data(), n),
-                                  least.data() + begin);
-  }
-  return least;
+  return measure_cells<ScaledJacobians>(mesh, cells);
+}
+
+std::vector<double> shape_metrics(const HexMesh& mesh, std::span<const CellHandle> cells) {
+  return measure_cells<ShapeMetrics>(mesh, cells);
 }
 
 }  // namespace hexweft

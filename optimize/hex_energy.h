@@ -64,4 +64,7 @@ std::vector<double> scaled_jacobians(const Eigen::Matrix3Xd& points,
 /// The same of cells of a mesh: scaled_jacobian() (quality.h) of many at once, several times as fast.
 std::vector<double> scaled_jacobians(const HexMesh& mesh, std::span<const CellHandle> cells);
 
+/// shape_metric() (quality.h) of many cells at once, several times as fast.
+std::vector<double> shape_metrics(const HexMesh& mesh, std::span<const CellHandle> cells);
+
 }  // namespace hexweft

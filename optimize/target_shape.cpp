@@ -14,11 +14,7 @@ struct LengthsAndVolumes {
   HEXWEFT_INLINE static void run(const double* points, const std::span<const HexCorners>& hexes,
                                  TargetCuboid* targets, double* volumes) {
     for (std::size_t h = 0; h < hexes.size(); ++h) {
-      const Vec3<Lanes> x = kernels::gather(points, hexes[h]);
-      Mat3<Lanes> edges;
-      edges.col[0] = kernels::axis_sign(0) * (kernels::across<0>(x) - x);
-      edges.col[1] = kernels::axis_sign(1) * (kernels::across<1>(x) - x);
-      edges.col[2] = kernels::axis_sign(2) * (kernels::across<2>(x) - x);
+      const Mat3<Lanes> edges = kernels::corner_edges(kernels::gather(points, hexes[h]));
       for (int a = 0; a < 3; ++a) {
         targets[h].lengths[a] = lane_sum(square_root(dot(edges.col[a], edges.col[a]))) / kCorners;
       }

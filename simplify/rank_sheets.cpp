@@ -6,7 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "optimize/hex_energy.h"
 #include "ovm/errors.h"
+#include "ovm/neighborhood.h"
 #include "ovm/quality.h"
 #include "simplify/disjoint_sets.h"
 #include "simplify/rank.h"
@@ -165,7 +167,9 @@ void validate(const RankingWeights& w) {
 
 std::vector<double> shape_differences(const HexMesh& mesh) {
   std::vector<double> shape(mesh.cell_slots(), 0), result(mesh.cell_slots(), 0);
-  for (CellHandle c : mesh.cells()) shape[c.idx] = shape_metric(mesh, c);
+  const std::vector<CellHandle> cells = all_cells(mesh);
+  const std::vector<double> metrics = shape_metrics(mesh, cells);
+  for (std::size_t i = 0; i < cells.size(); ++i) shape[cells[i].idx] = metrics[i];
   for (CellHandle c : mesh.cells()) {
     for (int axis = 0; axis < 3; ++axis) {
       const CellHandle down = mesh.cell(mesh.opposite(mesh.halfface(c, 2 * axis)));

@@ -44,6 +44,12 @@ HEXWEFT_INLINE Vec3<Lanes> gather(const double* p, const HexCorners& h) {
           Lanes{c[0][2], c[1][2], c[2][2], c[3][2], c[4][2], c[5][2], c[6][2], c[7][2]}};
 }
 
+/// The three edges at every corner, each along its axis.
+HEXWEFT_INLINE Mat3<Lanes> corner_edges(const Vec3<Lanes>& x) {
+  return {{axis_sign(0) * (across<0>(x) - x), axis_sign(1) * (across<1>(x) - x),
+           axis_sign(2) * (across<2>(x) - x)}};
+}
+
 /// Signed inverse target lengths: they turn "across minus here" into a column of the Jacobian.
 struct Scale {
   Lanes axis[3];

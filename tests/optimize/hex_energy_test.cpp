@@ -133,5 +133,18 @@ TEST(ScaledJacobians, AreTheKernelsOwn) {
   }
 }
 
+TEST(ShapeMetrics, AreTheKernelsOwn) {
+  HexMesh mesh = make_octree_like(Shape::blob, 8, 3);
+  perturb(mesh, 0.05, true, 4);
+  const VertexHandle v = mesh.vertices(CellHandle(0))[0];
+  mesh.set_point(v, mesh.point(v) + Eigen::Vector3d(3, 3, 3));
+  const std::vector<CellHandle> cells = all_cells(mesh);
+  const std::vector<double> shape = shape_metrics(mesh, cells);
+  ASSERT_EQ(shape.size(), cells.size());
+  EXPECT_EQ(shape[0], 0);  // inverted
+  for (std::size_t i = 0; i < shape.size(); ++i)
+    EXPECT_NEAR(shape[i], shape_metric(mesh, cells[i]), 1e-12);
+}
+
 }  // namespace
 }  // namespace hexweft
