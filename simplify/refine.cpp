@@ -4,51 +4,10 @@
 #include <array>
 
 #include "ovm/edit/split_sheet.h"
-#include "ovm/quality.h"
 #include "ovm/transaction.h"
 
 namespace hexweft {
 namespace {
-
-struct Measured {
-  EdgeHandle first;     // lowest edge of the sheet
-  int cells = 0;        // crossed; one that is crossed twice counts twice
-  double length = 0;    // mean across, model units
-  double distance = 0;  // mean over its boundary sides
-};
-
-std::vector<Measured> measure_sheets(const HexMesh& mesh,
-                                     const std::vector<double>& distance_of_side) {
-  const DualSheets sheets = extract_dual_sheets(mesh);
-  std::vector<Measured> result(sheets.n_sheets);
-  std::vector<int> edges(sheets.n_sheets, 0), sides(sheets.n_sheets, 0);
-  for (EdgeHandle e : mesh.edges()) {
-    const int sheet = sheets[e];
-    const auto [a, b] = mesh.vertices(e);
-    result[sheet].length += (mesh.point(a) - mesh.point(b)).norm();
-    if (edges[sheet]++ == 0) result[sheet].first = e;
-  }
-  for (CellHandle c : mesh.cells()) {
-    std::array<int, 3> across;
-    for (int axis = 0; axis < 3; ++axis) {
-      across[axis] = sheets[mesh.edges(c)[4 * axis]];
-      ++result[across[axis]].cells;
-    }
-    for (HalfFaceHandle hf : mesh.halffaces(c)) {
-      if (!mesh.is_boundary(hf)) continue;
-      for (int axis = 0; axis < 3; ++axis) {
-        if (axis == side_axis(HexMesh::side(hf))) continue;
-        result[across[axis]].distance += distance_of_side[hf.idx];
-        ++sides[across[axis]];
-      }
-    }
-  }
-  for (int i = 0; i < sheets.n_sheets; ++i) {
-    result[i].length /= edges[i];
-    if (sides[i] > 0) result[i].distance /= sides[i];
-  }
-  return result;
-}
 
 // Relaxes the new vertices, which then meet the surface better. A split changes no shape by much: a
 // narrow region and few iterations do. Kept, with the split, only where it does no harm.
@@ -71,25 +30,65 @@ bool relax_added(TrialContext& context, std::span<const VertexHandle> added,
 
 }  // namespace
 
-std::optional<DualSheet> choose_sheet_to_refine(const HexMesh& mesh,
-                                                const SurfaceDistance& distance,
-                                                const RefineOptions& options,
-                                                std::span<const EdgeHandle> excluded) {
-  const double long_enough = options.min_length_rel * mean_edge_length(mesh);
-  std::vector<Measured> candidates;
-  for (const Measured& m : measure_sheets(mesh, distance.distance_by_halfface())) {
-    const bool known = std::find(excluded.begin(), excluded.end(), m.first) != excluded.end();
-    if (m.cells <= options.max_cells && !known && m.length > long_enough) candidates.push_back(m);
+SheetsToRefine::Measures SheetsToRefine::measure(const HexMesh& mesh,
+                                                 const SurfaceDistance& distance) {
+  const DualSheets sheets = extract_dual_sheets(mesh);
+  std::vector<Measured> result(sheets.n_sheets);
+  std::vector<int> edges(sheets.n_sheets, 0), sides(sheets.n_sheets, 0);
+  double sum = 0;
+  for (EdgeHandle e : mesh.edges()) {
+    const int sheet = sheets[e];
+    const auto [a, b] = mesh.vertices(e);
+    const double length = (mesh.point(a) - mesh.point(b)).norm();
+    result[sheet].length += length;
+    sum += length;
+    if (edges[sheet]++ == 0) result[sheet].first = e;
   }
-  if (candidates.empty()) return std::nullopt;
-  const auto by_distance = [](const Measured& a, const Measured& b) {
-    return a.distance > b.distance;
-  };
-  const auto by_length = [](const Measured& a, const Measured& b) { return a.length < b.length; };
-  std::stable_sort(candidates.begin(), candidates.end(), by_distance);
-  const auto end = candidates.begin() + std::min<std::ptrdiff_t>(std::max(options.by_distance, 1),
-                                                                 std::ssize(candidates));
-  return dual_sheet(mesh, std::max_element(candidates.begin(), end, by_length)->first);
+  for (CellHandle c : mesh.cells()) {
+    std::array<int, 3> across;
+    for (int axis = 0; axis < 3; ++axis) {
+      across[axis] = sheets[mesh.edges(c)[4 * axis]];
+      ++result[across[axis]].cells;
+    }
+    for (HalfFaceHandle hf : mesh.halffaces(c)) {
+      if (!mesh.is_boundary(hf)) continue;
+      const double d = distance.distance_at(hf);
+      for (int axis = 0; axis < 3; ++axis) {
+        if (axis == side_axis(HexMesh::side(hf))) continue;
+        result[across[axis]].distance += d;
+        ++sides[across[axis]];
+      }
+    }
+  }
+  for (int i = 0; i < sheets.n_sheets; ++i) {
+    result[i].length /= edges[i];
+    if (sides[i] > 0) result[i].distance /= sides[i];
+  }
+  return {std::move(result), sum / std::max(1, mesh.n_edges())};
+}
+
+SheetsToRefine::SheetsToRefine(const HexMesh& mesh, const SurfaceDistance& distance,
+                               const RefineOptions& options, std::span<const EdgeHandle> excluded)
+    : by_distance_(std::max(options.by_distance, 1)) {
+  const Measures measures = measure(mesh, distance);
+  const double long_enough = options.min_length_rel * measures.mean_edge;
+  for (const Measured& m : measures.sheets) {
+    const bool known = std::find(excluded.begin(), excluded.end(), m.first) != excluded.end();
+    if (!known && m.length > long_enough) left_.push_back(m);
+  }
+  std::stable_sort(left_.begin(), left_.end(),
+                   [](const Measured& a, const Measured& b) { return a.distance > b.distance; });
+}
+
+std::optional<DualSheet> SheetsToRefine::next(const HexMesh& mesh, int max_cells) {
+  std::erase_if(left_, [&](const Measured& m) { return m.cells > max_cells; });
+  if (left_.empty()) return std::nullopt;
+  const auto end = left_.begin() + std::min<std::ptrdiff_t>(by_distance_, std::ssize(left_));
+  const auto longest = std::max_element(
+      left_.begin(), end, [](const Measured& a, const Measured& b) { return a.length < b.length; });
+  const EdgeHandle first = longest->first;
+  left_.erase(longest);
+  return dual_sheet(mesh, first);
 }
 
 bool try_refine(TrialContext& context, const DualSheet& sheet, const SimplifyOptions& options) {

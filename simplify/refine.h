@@ -13,17 +13,39 @@
 namespace hexweft {
 
 struct RefineOptions {
-  int max_cells = 0;            ///< a sheet may hold at most so many
   double min_length_rel = 1.2;  ///< > 0, mean length across, of the mean edge length of the mesh
   int by_distance = 4;  ///< >= 0, sheets looked at in the order of their mean distance first
 };
 
-/// Of the sheets with the largest mean distance one that is long across, else the longest; empty if
-/// none qualifies. `excluded` holds lowest edges of sheets not to take.
-std::optional<DualSheet> choose_sheet_to_refine(const HexMesh& mesh,
-                                                const SurfaceDistance& distance,
-                                                const RefineOptions& options,
-                                                std::span<const EdgeHandle> excluded = {});
+/// The sheets of a mesh that may be split, one after the other: of those with the largest mean
+/// distance the one that is longest across.
+class SheetsToRefine {
+ public:
+  /// \param excluded  lowest edges of sheets not to take
+  SheetsToRefine(const HexMesh& mesh, const SurfaceDistance& distance, const RefineOptions& options,
+                 std::span<const EdgeHandle> excluded = {});
+  /// None comes twice. The mesh has to be the one that was measured: a split shortens what lies
+  /// beside it, which may then be far from the next to split.
+  /// \param max_cells  what is crossed more often is passed over
+  /// \return empty if none is left
+  std::optional<DualSheet> next(const HexMesh& mesh, int max_cells);
+
+ private:
+  struct Measured {
+    EdgeHandle first;     // lowest edge of the sheet
+    int cells = 0;        // crossed; one that is crossed twice counts twice
+    double length = 0;    // mean across, model units
+    double distance = 0;  // mean over its boundary sides
+  };
+  struct Measures {
+    std::vector<Measured> sheets;
+    double mean_edge;
+  };
+  static Measures measure(const HexMesh& mesh, const SurfaceDistance& distance);
+
+  int by_distance_;
+  std::vector<Measured> left_;  // farthest first
+};
 
 /// Splits the sheet, puts new boundary vertices on the surface and relaxes round it.
 /// \return false (and all as before) if that inverts a cell or leaves the surface

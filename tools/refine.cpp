@@ -47,20 +47,17 @@ int split_layers(cli::SingleTrial& trial, int id, const SimplifyOptions& options
 int split_up_to(cli::SingleTrial& trial, const Request& request) {
   HexMesh& mesh = trial.mesh();
   cli::ProgressLine line;
-  std::vector<EdgeHandle> failed;
+  RefineOptions refine;
+  refine.min_length_rel = request.min_length_rel;
   int n = 0;
-  while (mesh.n_cells() < *request.hexahedra) {
-    RefineOptions refine;
-    refine.max_cells = static_cast<int>(1.5 * (*request.hexahedra - mesh.n_cells()));
-    refine.min_length_rel = request.min_length_rel;
-    const auto sheet = choose_sheet_to_refine(mesh, trial.distance(), refine, failed);
-    if (!sheet) break;
-    if (try_refine(trial.context(), *sheet, request.trial.options)) {
-      failed.clear();
-      line.show(fmt::format("{} sheets split  H {}", ++n, mesh.n_cells()));
-    } else {
-      failed.push_back(sheet->edges.front());
-    }
+  for (int room; (room = *request.hexahedra - mesh.n_cells()) > 0; ++n) {
+    SheetsToRefine sheets(mesh, trial.distance(), refine);
+    std::optional<DualSheet> sheet;
+    do {
+      sheet = sheets.next(mesh, static_cast<int>(1.5 * room));
+      if (!sheet) return n;
+    } while (!try_refine(trial.context(), *sheet, request.trial.options));
+    line.show(fmt::format("{} sheets split  H {}", n + 1, mesh.n_cells()));
   }
   return n;
 }

@@ -23,9 +23,12 @@ struct Bench {
                 summarize_topology(mesh),
                 0.01 * reference.bounding_box_diagonal(),
                 0.01 * reference.bounding_box_diagonal()} {}
-  std::optional<DualSheet> choose(const RefineOptions& o,
-                                  std::span<const EdgeHandle> excluded = {}) const {
-    return choose_sheet_to_refine(mesh, distance, o, excluded);
+  SheetsToRefine sheets(const RefineOptions& o = {},
+                        std::span<const EdgeHandle> excluded = {}) const {
+    return {mesh, distance, o, excluded};
+  }
+  std::optional<DualSheet> first(int max_cells, const RefineOptions& o = {}) const {
+    return sheets(o).next(mesh, max_cells);
   }
   HexMesh mesh;
   ReferenceSurface reference;
@@ -48,39 +51,49 @@ double mean_length(const HexMesh& mesh, const DualSheet& s) {
   return sum / static_cast<double>(s.edges.size());
 }
 
-TEST(ChooseSheetToRefine, TakesOneThatIsLongAcross) {
+TEST(SheetsToRefine, AreLongAcross) {
   const Bench b(make_long_cells());
-  const auto s = b.choose({.max_cells = 100});
+  const auto s = b.first(100);
   ASSERT_TRUE(s);
   EXPECT_NEAR(mean_length(b.mesh, *s), 2, 1e-12);
   EXPECT_EQ(s->crossings.size(), 4u);
 }
 
-TEST(ChooseSheetToRefine, RespectsTheNumberOfCells) {
+TEST(SheetsToRefine, RespectTheNumberOfCells) {
   const Bench b(make_long_cells());
-  EXPECT_FALSE(b.choose({.max_cells = 3}));
-  EXPECT_TRUE(b.choose({.max_cells = 4}));
+  EXPECT_FALSE(b.first(3));
+  EXPECT_TRUE(b.first(4));
 }
 
-TEST(ChooseSheetToRefine, RespectsTheLength) {
+TEST(SheetsToRefine, RespectTheLength) {
   // The mean edge has length 1.36.
   const Bench b(make_long_cells());
-  EXPECT_TRUE(b.choose({.max_cells = 100, .min_length_rel = 1.4}));
-  EXPECT_FALSE(b.choose({.max_cells = 100, .min_length_rel = 1.5}));
+  EXPECT_TRUE(b.first(100, {.min_length_rel = 1.4}));
+  EXPECT_FALSE(b.first(100, {.min_length_rel = 1.5}));
 }
 
-TEST(ChooseSheetToRefine, LeavesOutWhatIsExcluded) {
+TEST(SheetsToRefine, ComeOnceEach) {
   const Bench b(make_long_cells());
-  std::vector<EdgeHandle> excluded;
-  while (const auto s = b.choose({.max_cells = 100}, excluded)) {
-    EXPECT_EQ(std::count(excluded.begin(), excluded.end(), s->edges.front()), 0);
-    excluded.push_back(s->edges.front());
-    ASSERT_LE(excluded.size(), 3u);
+  SheetsToRefine sheets = b.sheets();
+  std::vector<EdgeHandle> seen;
+  while (const auto s = sheets.next(b.mesh, 100)) {
+    EXPECT_EQ(std::count(seen.begin(), seen.end(), s->edges.front()), 0);
+    seen.push_back(s->edges.front());
+    ASSERT_LE(seen.size(), 3u);
   }
-  EXPECT_EQ(excluded.size(), 3u);  // the three sheets across the long direction
+  EXPECT_EQ(seen.size(), 3u);  // the three sheets across the long direction
 }
 
-TEST(ChooseSheetToRefine, PrefersTheLongestOfTheFarthest) {
+TEST(SheetsToRefine, LeaveOutWhatIsExcluded) {
+  const Bench b(make_long_cells());
+  const EdgeHandle excluded[] = {b.first(100)->edges.front()};
+  SheetsToRefine sheets = b.sheets({}, excluded);
+  int n = 0;
+  for (; const auto s = sheets.next(b.mesh, 100); ++n) EXPECT_NE(s->edges.front(), excluded[0]);
+  EXPECT_EQ(n, 2);
+}
+
+TEST(SheetsToRefine, BeginWithTheLongestOfTheFarthest) {
   HexMesh mesh = make_grid({3, 1, 1});
   for (VertexHandle v : mesh.vertices()) {
     Eigen::Vector3d p = mesh.point(v);
@@ -88,14 +101,14 @@ TEST(ChooseSheetToRefine, PrefersTheLongestOfTheFarthest) {
     mesh.set_point(v, p);
   }
   const Bench b(mesh);
-  const auto s = b.choose({.max_cells = 1});
+  const auto s = b.first(1);
   ASSERT_TRUE(s);
   EXPECT_NEAR(mean_length(b.mesh, *s), 3, 1e-12);
 }
 
 TEST(TryRefine, SplitsEachCellOfTheSheet) {
   Bench b(make_long_cells());
-  const auto s = b.choose({.max_cells = 100});
+  const auto s = b.first(100);
   ASSERT_TRUE(s && try_refine(b.context, *s, {}));
   EXPECT_EQ(b.mesh.n_cells(), 12 + 4);
   EXPECT_EQ(counts(extract_base_complex(b.mesh)), (BaseCounts{8, 12, 6, 1}));
