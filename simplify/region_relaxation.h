@@ -27,8 +27,9 @@ int rings_round(const CollapsePlan& plan, const SimplifyOptions& options);
 /// refusal it is as before.
 /// \param merged  the vertices that are left of those merged
 /// \param old     quality of the region before the edit
+/// \param outlook what the edit has left
 RegionResult relax_region(TrialContext& context, const CollapsePlan& plan,
                           std::span<const VertexHandle> merged, const Quality& old,
-                          const SimplifyOptions& options);
+                          const Outlook& outlook, const SimplifyOptions& options);
 
 }  // namespace hexweft

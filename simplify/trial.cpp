@@ -127,7 +127,7 @@ TrialResult collapse_and_relax(TrialContext& context, const SingularityGraph& gr
   }
   if (!result.accepted()) return result;
 
-  const RegionResult relaxed = relax_region(context, plan, left, old, options);
+  const RegionResult relaxed = relax_region(context, plan, left, old, *result.outlook, options);
   result.refusal = relaxed.refusal;
   if (relaxed.failed_at) result.cause = groups_near(mesh, plan, *relaxed.failed_at);
   return result;
@@ -230,7 +230,16 @@ std::vector<CellHandle> cells_around(const HexMesh& mesh, std::span<const Vertex
     }
     front.swap(next);
   }
-  std::sort(result.begin(), result.end());
+  // In order: by looking through all, unless they are so many that sorting is faster.
+  constexpr int kAllPerOne = 32;
+  if (std::ssize(seen_cell) > kAllPerOne * std::ssize(result)) {
+    std::sort(result.begin(), result.end());
+    return result;
+  }
+  result.clear();
+  for (int i = 0; i < mesh.cell_slots(); ++i) {
+    if (seen_cell[i]) result.push_back(CellHandle(i));
+  }
   return result;
 }
 
