@@ -69,7 +69,7 @@ SheetsToRefine::Measures SheetsToRefine::measure(const HexMesh& mesh,
 
 SheetsToRefine::SheetsToRefine(const HexMesh& mesh, const SurfaceDistance& distance,
                                const RefineOptions& options, std::span<const EdgeHandle> excluded)
-    : by_distance_(std::max(options.by_distance, 1)) {
+    : mesh_(mesh), by_distance_(std::max(options.by_distance, 1)) {
   const Measures measures = measure(mesh, distance);
   const double long_enough = options.min_length_rel * measures.mean_edge;
   for (const Measured& m : measures.sheets) {
@@ -80,7 +80,7 @@ SheetsToRefine::SheetsToRefine(const HexMesh& mesh, const SurfaceDistance& dista
                    [](const Measured& a, const Measured& b) { return a.distance > b.distance; });
 }
 
-std::optional<DualSheet> SheetsToRefine::next(const HexMesh& mesh, int max_cells) {
+std::optional<DualSheet> SheetsToRefine::next(int max_cells) {
   std::erase_if(left_, [&](const Measured& m) { return m.cells > max_cells; });
   if (left_.empty()) return std::nullopt;
   const auto end = left_.begin() + std::min<std::ptrdiff_t>(by_distance_, std::ssize(left_));
@@ -88,7 +88,7 @@ std::optional<DualSheet> SheetsToRefine::next(const HexMesh& mesh, int max_cells
       left_.begin(), end, [](const Measured& a, const Measured& b) { return a.length < b.length; });
   const EdgeHandle first = longest->first;
   left_.erase(longest);
-  return dual_sheet(mesh, first);
+  return dual_sheet(mesh_, first);
 }
 
 bool try_refine(TrialContext& context, const DualSheet& sheet, const SimplifyOptions& options) {

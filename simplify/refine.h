@@ -21,14 +21,15 @@ struct RefineOptions {
 /// distance the one that is longest across.
 class SheetsToRefine {
  public:
+  /// \param mesh      must outlive this
   /// \param excluded  lowest edges of sheets not to take
   SheetsToRefine(const HexMesh& mesh, const SurfaceDistance& distance, const RefineOptions& options,
                  std::span<const EdgeHandle> excluded = {});
-  /// None comes twice. The mesh has to be the one that was measured: a split shortens what lies
-  /// beside it, which may then be far from the next to split.
+  /// None comes twice. The mesh has to be as it was measured: a split shortens what lies beside it,
+  /// and the best to split next may be another.
   /// \param max_cells  what is crossed more often is passed over
   /// \return empty if none is left
-  std::optional<DualSheet> next(const HexMesh& mesh, int max_cells);
+  std::optional<DualSheet> next(int max_cells);
 
  private:
   struct Measured {
@@ -43,6 +44,7 @@ class SheetsToRefine {
   };
   static Measures measure(const HexMesh& mesh, const SurfaceDistance& distance);
 
+  const HexMesh& mesh_;
   int by_distance_;
   std::vector<Measured> left_;  // farthest first
 };

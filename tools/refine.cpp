@@ -54,7 +54,7 @@ int split_up_to(cli::SingleTrial& trial, const Request& request) {
     SheetsToRefine sheets(mesh, trial.distance(), refine);
     std::optional<DualSheet> sheet;
     do {
-      sheet = sheets.next(mesh, static_cast<int>(1.5 * room));
+      sheet = sheets.next(static_cast<int>(1.5 * room));
       if (!sheet) return n;
     } while (!try_refine(trial.context(), *sheet, request.trial.options));
     line.show(fmt::format("{} sheets split  H {}", n + 1, mesh.n_cells()));

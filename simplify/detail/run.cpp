@@ -182,7 +182,7 @@ bool Run::refine(double min_length_rel, double most_cells_rel) {
   options.min_length_rel = min_length_rel;
   SheetsToRefine sheets(mesh_, distance_, options, not_refinable_);
   for (int i = 0; i < kTries && !is_cut_short(); ++i) {
-    const auto sheet = sheets.next(mesh_, room_for_cells(most_cells_rel));
+    const auto sheet = sheets.next(room_for_cells(most_cells_rel));
     if (!sheet) break;
     if (refine_one(*sheet)) return true;
     ++report_.refinement_failed;

@@ -28,7 +28,7 @@ struct Bench {
     return {mesh, distance, o, excluded};
   }
   std::optional<DualSheet> first(int max_cells, const RefineOptions& o = {}) const {
-    return sheets(o).next(mesh, max_cells);
+    return sheets(o).next(max_cells);
   }
   HexMesh mesh;
   ReferenceSurface reference;
@@ -76,7 +76,7 @@ TEST(SheetsToRefine, ComeOnceEach) {
   const Bench b(make_long_cells());
   SheetsToRefine sheets = b.sheets();
   std::vector<EdgeHandle> seen;
-  while (const auto s = sheets.next(b.mesh, 100)) {
+  while (const auto s = sheets.next(100)) {
     EXPECT_EQ(std::count(seen.begin(), seen.end(), s->edges.front()), 0);
     seen.push_back(s->edges.front());
     ASSERT_LE(seen.size(), 3u);
@@ -89,7 +89,7 @@ TEST(SheetsToRefine, LeaveOutWhatIsExcluded) {
   const EdgeHandle excluded[] = {b.first(100)->edges.front()};
   SheetsToRefine sheets = b.sheets({}, excluded);
   int n = 0;
-  for (; const auto s = sheets.next(b.mesh, 100); ++n) EXPECT_NE(s->edges.front(), excluded[0]);
+  for (; const auto s = sheets.next(100); ++n) EXPECT_NE(s->edges.front(), excluded[0]);
   EXPECT_EQ(n, 2);
 }
 
