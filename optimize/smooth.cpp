@@ -17,11 +17,6 @@
 namespace hexweft {
 namespace {
 
-std::vector<double> quality(const HexMesh& mesh, const std::vector<CellHandle>& cells) {
-  const Region region = make_region(mesh, cells);
-  return scaled_jacobians(region.points, region.hexes);
-}
-
 struct Measure {
   double least, mean;
 };
@@ -110,7 +105,8 @@ bool Smoother::keep_gain(const Region& before, const Aim& aim) {
   const MoveLimits limits = {aim.floor, aim.room * limit_, kMargin * limit_};
   if (!keep_what_fits(mesh_, before, distance_, limits)) return false;
   const Measure old = measure(scaled_jacobians(before.points, before.hexes));
-  if (gains(old, measure(quality(mesh_, before.cells)), before.cells.size(), aim)) return true;
+  if (gains(old, measure(scaled_jacobians(mesh_, before.cells)), before.cells.size(), aim))
+    return true;
   distance_.rollback();
   return false;
 }
@@ -136,7 +132,7 @@ void Smoother::relax_for_least() {
   constexpr int kTries = 3;
   int failed = 0;
   for (int round = 0; round < options_.global_rounds && failed < kTries && !stopped(); ++round) {
-    const double least = measure(quality(mesh_, cells_)).least;
+    const double least = measure(scaled_jacobians(mesh_, cells_)).least;
     ParametrizationOptions o = options_.parametrization;
     if (failed < 2) o = options_for_least(o, least);
     if (failed == 1) {
@@ -154,7 +150,7 @@ void Smoother::relax_for_least() {
 
 void Smoother::relax_for_mean() {
   for (int round = 0; round < options_.mean_rounds && !stopped(); ++round) {
-    const double least = measure(quality(mesh_, cells_)).least;
+    const double least = measure(scaled_jacobians(mesh_, cells_)).least;
     const ParametrizationOptions o = options_for_mean(options_.parametrization, least);
     if (!attempt(cells_, o, {least, kLeastGain, kMeanGain})) break;
     ++report_.accepted_global;
@@ -176,7 +172,7 @@ bool Smoother::relax_round(CellHandle worst, double least_gain) {
   const CellHandle seed[1] = {worst};
   for (const Rung& rung : ladder) {
     moved_ = grow_cells(mesh_, seed, rung.rings);
-    const double floor = measure(quality(mesh_, moved_)).least + least_gain;
+    const double floor = measure(scaled_jacobians(mesh_, moved_)).least + least_gain;
     ParametrizationOptions o = p;
     o.surface.weight = rung.surface_weight;
     o.least_on_projection = rung.least_on_projection;
@@ -196,7 +192,7 @@ void Smoother::relax_worst_cells() {
   std::vector<double> sj(mesh_.cell_slots(), 1);
   std::vector<char> left_alone(mesh_.cell_slots(), 0);
   const auto measure_again = [&](const std::vector<CellHandle>& cells) {
-    const std::vector<double> now = quality(mesh_, cells);
+    const std::vector<double> now = scaled_jacobians(mesh_, cells);
     for (std::size_t i = 0; i < cells.size(); ++i) sj[cells[i].idx] = now[i];
   };
   measure_again(cells_);
@@ -218,13 +214,13 @@ void Smoother::relax_worst_cells() {
 }
 
 SmoothingReport Smoother::run() {
-  const Measure before = measure(quality(mesh_, cells_));
+  const Measure before = measure(scaled_jacobians(mesh_, cells_));
   report_.initial_min_scaled_jacobian = before.least;
   report_.initial_mean_scaled_jacobian = mean_ = before.mean;
   relax_for_least();
   relax_worst_cells();
   relax_for_mean();
-  const Measure now = measure(quality(mesh_, cells_));
+  const Measure now = measure(scaled_jacobians(mesh_, cells_));
   report_.min_scaled_jacobian = now.least;
   report_.mean_scaled_jacobian = now.mean;
   return report_;
@@ -296,7 +292,7 @@ SmoothingReport smooth(HexMesh& mesh, const ReferenceSurface& reference,
   if (mesh.n_cells() == 0) return {};
   const auto measured = [&] { return hausdorff_distance(mesh, reference).ratio(); };
   const double before = options.initial_hausdorff_rel ? *options.initial_hausdorff_rel : measured();
-  const Measure start = measure(quality(mesh, all_cells(mesh)));
+  const Measure start = measure(scaled_jacobians(mesh, all_cells(mesh)));
   SmoothingReport report;
   report.initial_min_scaled_jacobian = report.min_scaled_jacobian = start.least;
   report.initial_mean_scaled_jacobian = report.mean_scaled_jacobian = start.mean;

@@ -4,44 +4,27 @@
 #include <array>
 
 #include "ovm/edit/split_sheet.h"
+#include "ovm/quality.h"
 #include "ovm/transaction.h"
 
 namespace hexweft {
 namespace {
 
-// Relaxes the new vertices, which then meet the surface better. A split changes no shape by much: a
-// narrow region and few iterations do. Kept, with the split, only where it does no harm.
-bool relax_added(TrialContext& context, std::span<const VertexHandle> added,
-                 std::span<const CellHandle> removed, const SimplifyOptions& options) {
-  HexMesh& mesh = context.mesh;
-  const std::vector<CellHandle> region = cells_around(mesh, added, (options.rings + 1) / 2);
-  ParametrizationOptions p = options.parametrization;
-  p.max_iterations = 1;
-  p.min_scaled_jacobian =
-      std::min(options.min_scaled_jacobian, measure_quality(mesh, region).least);
-  Transaction relaxed(mesh);
-  if (!parametrize(mesh, region, context.reference, p).valid()) return false;
-  std::vector<CellHandle> touched = region;
-  touched.insert(touched.end(), removed.begin(), removed.end());
-  if (!stays_on_surface(context, touched)) return false;
-  relaxed.commit();
-  return true;
-}
+struct Measured {
+  EdgeHandle first;     // lowest edge of the sheet
+  int cells = 0;        // crossed; one that is crossed twice counts twice
+  double length = 0;    // mean across, model units
+  double distance = 0;  // mean over its boundary sides
+};
 
-}  // namespace
-
-SheetsToRefine::Measures SheetsToRefine::measure(const HexMesh& mesh,
-                                                 const SurfaceDistance& distance) {
+std::vector<Measured> measure_sheets(const HexMesh& mesh, const SurfaceDistance& distance) {
   const DualSheets sheets = extract_dual_sheets(mesh);
   std::vector<Measured> result(sheets.n_sheets);
   std::vector<int> edges(sheets.n_sheets, 0), sides(sheets.n_sheets, 0);
-  double sum = 0;
   for (EdgeHandle e : mesh.edges()) {
     const int sheet = sheets[e];
     const auto [a, b] = mesh.vertices(e);
-    const double length = (mesh.point(a) - mesh.point(b)).norm();
-    result[sheet].length += length;
-    sum += length;
+    result[sheet].length += (mesh.point(a) - mesh.point(b)).norm();
     if (edges[sheet]++ == 0) result[sheet].first = e;
   }
   for (CellHandle c : mesh.cells()) {
@@ -64,31 +47,54 @@ SheetsToRefine::Measures SheetsToRefine::measure(const HexMesh& mesh,
     result[i].length /= edges[i];
     if (sides[i] > 0) result[i].distance /= sides[i];
   }
-  return {std::move(result), sum / std::max(1, mesh.n_edges())};
+  return result;
 }
 
-SheetsToRefine::SheetsToRefine(const HexMesh& mesh, const SurfaceDistance& distance,
-                               const RefineOptions& options, std::span<const EdgeHandle> excluded)
-    : mesh_(mesh), by_distance_(std::max(options.by_distance, 1)) {
-  const Measures measures = measure(mesh, distance);
-  const double long_enough = options.min_length_rel * measures.mean_edge;
-  for (const Measured& m : measures.sheets) {
+// Relaxes the new vertices, which then meet the surface better. A split changes no shape by much: a
+// narrow region and few iterations do. Kept, with the split, only where it does no harm.
+bool relax_added(TrialContext& context, std::span<const VertexHandle> added,
+                 std::span<const CellHandle> removed, const SimplifyOptions& options) {
+  HexMesh& mesh = context.mesh;
+  const std::vector<CellHandle> region = cells_around(mesh, added, (options.rings + 1) / 2);
+  ParametrizationOptions p = options.parametrization;
+  p.max_iterations = 1;
+  p.min_scaled_jacobian =
+      std::min(options.min_scaled_jacobian, measure_quality(mesh, region).least);
+  Transaction relaxed(mesh);
+  if (!parametrize(mesh, region, context.reference, p).valid()) return false;
+  std::vector<CellHandle> touched = region;
+  touched.insert(touched.end(), removed.begin(), removed.end());
+  if (!stays_on_surface(context, touched)) return false;
+  relaxed.commit();
+  return true;
+}
+
+}  // namespace
+
+std::vector<EdgeHandle> list_sheets_to_refine(const HexMesh& mesh, const SurfaceDistance& distance,
+                                              const RefineOptions& options,
+                                              std::span<const EdgeHandle> excluded) {
+  const double long_enough = options.min_length_rel * mean_edge_length(mesh);
+  std::vector<Measured> candidates;
+  for (const Measured& m : measure_sheets(mesh, distance)) {
     const bool known = std::find(excluded.begin(), excluded.end(), m.first) != excluded.end();
-    if (!known && m.length > long_enough) left_.push_back(m);
+    if (m.cells <= options.max_cells && !known && m.length > long_enough) candidates.push_back(m);
   }
-  std::stable_sort(left_.begin(), left_.end(),
+  std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Measured& a, const Measured& b) { return a.distance > b.distance; });
-}
-
-std::optional<DualSheet> SheetsToRefine::next(int max_cells) {
-  std::erase_if(left_, [&](const Measured& m) { return m.cells > max_cells; });
-  if (left_.empty()) return std::nullopt;
-  const auto end = left_.begin() + std::min<std::ptrdiff_t>(by_distance_, std::ssize(left_));
-  const auto longest = std::max_element(
-      left_.begin(), end, [](const Measured& a, const Measured& b) { return a.length < b.length; });
-  const EdgeHandle first = longest->first;
-  left_.erase(longest);
-  return dual_sheet(mesh_, first);
+  std::vector<EdgeHandle> order;
+  std::vector<Measured> farthest;  // of those left
+  for (std::size_t next = 0; order.size() < candidates.size();) {
+    while (next < candidates.size() &&
+           (farthest.empty() || std::ssize(farthest) < options.by_distance))
+      farthest.push_back(candidates[next++]);
+    const auto longest =
+        std::max_element(farthest.begin(), farthest.end(),
+                         [](const Measured& a, const Measured& b) { return a.length < b.length; });
+    order.push_back(longest->first);
+    farthest.erase(longest);
+  }
+  return order;
 }
 
 bool try_refine(TrialContext& context, const DualSheet& sheet, const SimplifyOptions& options) {

@@ -3,7 +3,6 @@
 /// It adds a layer of cells and leaves the base complex as it is. Source [Xu2021, §6].
 #pragma once
 
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,41 +12,18 @@
 namespace hexweft {
 
 struct RefineOptions {
+  int max_cells = 0;            ///< a sheet may hold at most so many
   double min_length_rel = 1.2;  ///< > 0, mean length across, of the mean edge length of the mesh
   int by_distance = 4;  ///< >= 0, sheets looked at in the order of their mean distance first
 };
 
-/// The sheets of a mesh that may be split, one after the other: of those with the largest mean
-/// distance the one that is longest across.
-class SheetsToRefine {
- public:
-  /// \param mesh      must outlive this
-  /// \param excluded  lowest edges of sheets not to take
-  SheetsToRefine(const HexMesh& mesh, const SurfaceDistance& distance, const RefineOptions& options,
-                 std::span<const EdgeHandle> excluded = {});
-  /// None comes twice. The mesh has to be as it was measured: a split shortens what lies beside it,
-  /// and the best to split next may be another.
-  /// \param max_cells  what is crossed more often is passed over
-  /// \return empty if none is left
-  std::optional<DualSheet> next(int max_cells);
-
- private:
-  struct Measured {
-    EdgeHandle first;     // lowest edge of the sheet
-    int cells = 0;        // crossed; one that is crossed twice counts twice
-    double length = 0;    // mean across, model units
-    double distance = 0;  // mean over its boundary sides
-  };
-  struct Measures {
-    std::vector<Measured> sheets;
-    double mean_edge;
-  };
-  static Measures measure(const HexMesh& mesh, const SurfaceDistance& distance);
-
-  const HexMesh& mesh_;
-  int by_distance_;
-  std::vector<Measured> left_;  // farthest first
-};
+/// The sheets that may be split, by their lowest edges, in the order to try them: each time, of those
+/// left with the largest mean distance, the one that is longest across. A split shortens what lies
+/// beside it: after one the best to split next may be another.
+/// \param excluded  lowest edges of sheets not to take
+std::vector<EdgeHandle> list_sheets_to_refine(const HexMesh& mesh, const SurfaceDistance& distance,
+                                              const RefineOptions& options,
+                                              std::span<const EdgeHandle> excluded = {});
 
 /// Splits the sheet, puts new boundary vertices on the surface and relaxes round it.
 /// \return false (and all as before) if that inverts a cell or leaves the surface

@@ -230,7 +230,7 @@ std::vector<CellHandle> cells_around(const HexMesh& mesh, std::span<const Vertex
     }
     front.swap(next);
   }
-  // In order: by looking through all, unless they are so many that sorting is faster.
+  // In order: by looking through all cells of the mesh, unless it has so many that sorting is faster.
   constexpr int kAllPerOne = 32;
   if (std::ssize(seen_cell) > kAllPerOne * std::ssize(result)) {
     std::sort(result.begin(), result.end());

@@ -1,6 +1,8 @@
 // hexweft-refine: splits one sheet, or as many as a number of hexahedra takes.
 #include "simplify/refine.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "simplify/sheet.h"
@@ -43,22 +45,24 @@ int split_layers(cli::SingleTrial& trial, int id, const SimplifyOptions& options
   return n;
 }
 
+// Splits the first sheet that can be. \return whether there is one
+bool split_one(cli::SingleTrial& trial, const Request& request) {
+  HexMesh& mesh = trial.mesh();
+  RefineOptions refine;
+  refine.max_cells = static_cast<int>(1.5 * (*request.hexahedra - mesh.n_cells()));
+  refine.min_length_rel = request.min_length_rel;
+  const auto order = list_sheets_to_refine(mesh, trial.distance(), refine);
+  return std::any_of(order.begin(), order.end(), [&](EdgeHandle e) {
+    return try_refine(trial.context(), dual_sheet(mesh, e), request.trial.options);
+  });
+}
+
 // Splits sheets until there are so many hexahedra or none qualifies. \return sheets split
 int split_up_to(cli::SingleTrial& trial, const Request& request) {
-  HexMesh& mesh = trial.mesh();
   cli::ProgressLine line;
-  RefineOptions refine;
-  refine.min_length_rel = request.min_length_rel;
   int n = 0;
-  for (int room; (room = *request.hexahedra - mesh.n_cells()) > 0; ++n) {
-    SheetsToRefine sheets(mesh, trial.distance(), refine);
-    std::optional<DualSheet> sheet;
-    do {
-      sheet = sheets.next(static_cast<int>(1.5 * room));
-      if (!sheet) return n;
-    } while (!try_refine(trial.context(), *sheet, request.trial.options));
-    line.show(fmt::format("{} sheets split  H {}", n + 1, mesh.n_cells()));
-  }
+  while (trial.mesh().n_cells() < *request.hexahedra && split_one(trial, request))
+    line.show(fmt::format("{} sheets split  H {}", ++n, trial.mesh().n_cells()));
   return n;
 }
 

@@ -177,25 +177,21 @@ bool Run::is_short_of_cells(double share) const {
 // beside it, and to take several by the same measures leaves a tenth more components in the end.
 bool Run::refine(double min_length_rel, double most_cells_rel) {
   const auto refining = timer(Stage::refinement);
+  RefineOptions refine;
+  refine.min_length_rel = min_length_rel;
+  const double target = options_.target_hexahedra_rel * report_.before.hexahedra;
+  refine.max_cells = static_cast<int>(
+      std::max(1.5 * (target - mesh_.n_cells()), most_cells_rel * target - mesh_.n_cells()));
   constexpr int kTries = 4;  // what makes one split fail holds for most others
-  RefineOptions options;
-  options.min_length_rel = min_length_rel;
-  SheetsToRefine sheets(mesh_, distance_, options, not_refinable_);
-  for (int i = 0; i < kTries && !is_cut_short(); ++i) {
-    const auto sheet = sheets.next(room_for_cells(most_cells_rel));
-    if (!sheet) break;
-    if (refine_one(*sheet)) return true;
+  int failed = 0;
+  for (EdgeHandle e : list_sheets_to_refine(mesh_, distance_, refine, not_refinable_)) {
+    if (failed == kTries || is_cut_short()) break;
+    if (refine_one(dual_sheet(mesh_, e))) return true;
+    ++failed;
     ++report_.refinement_failed;
-    not_refinable_.push_back(sheet->edges.front());
+    not_refinable_.push_back(e);
   }
   return false;
-}
-
-// For the layer that a split adds.
-int Run::room_for_cells(double most_cells_rel) const {
-  const double target = options_.target_hexahedra_rel * report_.before.hexahedra;
-  return static_cast<int>(
-      std::max(1.5 * (target - mesh_.n_cells()), most_cells_rel * target - mesh_.n_cells()));
 }
 
 bool Run::refine_one(const DualSheet& sheet) {

@@ -59,7 +59,6 @@ class Run {
   void relax_mesh();
   void refine_while_short();
   bool refine(double min_length_rel, double most_cells_rel = 1);
-  int room_for_cells(double most_cells_rel) const;
   bool refine_one(const DualSheet& sheet);
   bool is_short_of_cells(double share) const;
   bool should_stop();   // for good or for lack of progress

@@ -2,6 +2,8 @@
 #include "simplify/refine.h"
 
 #include <algorithm>
+#include <optional>
+#include <set>
 
 #include <gmock/gmock.h>
 
@@ -23,12 +25,14 @@ struct Bench {
                 summarize_topology(mesh),
                 0.01 * reference.bounding_box_diagonal(),
                 0.01 * reference.bounding_box_diagonal()} {}
-  SheetsToRefine sheets(const RefineOptions& o = {},
-                        std::span<const EdgeHandle> excluded = {}) const {
-    return {mesh, distance, o, excluded};
+  std::vector<EdgeHandle> list(const RefineOptions& o,
+                               std::span<const EdgeHandle> excluded = {}) const {
+    return list_sheets_to_refine(mesh, distance, o, excluded);
   }
-  std::optional<DualSheet> first(int max_cells, const RefineOptions& o = {}) const {
-    return sheets(o).next(max_cells);
+  /// The first of them, if any.
+  std::optional<DualSheet> first(const RefineOptions& o) const {
+    const auto all = list(o);
+    return all.empty() ? std::nullopt : std::optional(dual_sheet(mesh, all.front()));
   }
   HexMesh mesh;
   ReferenceSurface reference;
@@ -53,7 +57,7 @@ double mean_length(const HexMesh& mesh, const DualSheet& s) {
 
 TEST(SheetsToRefine, AreLongAcross) {
   const Bench b(make_long_cells());
-  const auto s = b.first(100);
+  const auto s = b.first({.max_cells = 100});
   ASSERT_TRUE(s);
   EXPECT_NEAR(mean_length(b.mesh, *s), 2, 1e-12);
   EXPECT_EQ(s->crossings.size(), 4u);
@@ -61,36 +65,35 @@ TEST(SheetsToRefine, AreLongAcross) {
 
 TEST(SheetsToRefine, RespectTheNumberOfCells) {
   const Bench b(make_long_cells());
-  EXPECT_FALSE(b.first(3));
-  EXPECT_TRUE(b.first(4));
+  EXPECT_FALSE(b.first({.max_cells = 3}));
+  EXPECT_TRUE(b.first({.max_cells = 4}));
 }
 
 TEST(SheetsToRefine, RespectTheLength) {
   // The mean edge has length 1.36.
   const Bench b(make_long_cells());
-  EXPECT_TRUE(b.first(100, {.min_length_rel = 1.4}));
-  EXPECT_FALSE(b.first(100, {.min_length_rel = 1.5}));
+  EXPECT_TRUE(b.first({.max_cells = 100, .min_length_rel = 1.4}));
+  EXPECT_FALSE(b.first({.max_cells = 100, .min_length_rel = 1.5}));
 }
 
 TEST(SheetsToRefine, ComeOnceEach) {
   const Bench b(make_long_cells());
-  SheetsToRefine sheets = b.sheets();
-  std::vector<EdgeHandle> seen;
-  while (const auto s = sheets.next(100)) {
-    EXPECT_EQ(std::count(seen.begin(), seen.end(), s->edges.front()), 0);
-    seen.push_back(s->edges.front());
-    ASSERT_LE(seen.size(), 3u);
-  }
-  EXPECT_EQ(seen.size(), 3u);  // the three sheets across the long direction
+  const auto all = b.list({.max_cells = 100});
+  EXPECT_EQ(std::set(all.begin(), all.end()).size(), all.size());
+  EXPECT_EQ(all.size(), 3u);  // the three sheets across the long direction
+  for (EdgeHandle e : all) EXPECT_EQ(dual_sheet(b.mesh, e).edges.front(), e);
 }
 
+// Whatever is taken out, the others keep their order: to go on is to choose anew without it.
 TEST(SheetsToRefine, LeaveOutWhatIsExcluded) {
   const Bench b(make_long_cells());
-  const EdgeHandle excluded[] = {b.first(100)->edges.front()};
-  SheetsToRefine sheets = b.sheets({}, excluded);
-  int n = 0;
-  for (; const auto s = sheets.next(100); ++n) EXPECT_NE(s->edges.front(), excluded[0]);
-  EXPECT_EQ(n, 2);
+  auto all = b.list({.max_cells = 100});
+  std::vector<EdgeHandle> excluded;
+  while (!all.empty()) {
+    excluded.push_back(all.front());
+    all.erase(all.begin());
+    EXPECT_EQ(b.list({.max_cells = 100}, excluded), all);
+  }
 }
 
 TEST(SheetsToRefine, BeginWithTheLongestOfTheFarthest) {
@@ -101,14 +104,14 @@ TEST(SheetsToRefine, BeginWithTheLongestOfTheFarthest) {
     mesh.set_point(v, p);
   }
   const Bench b(mesh);
-  const auto s = b.first(1);
+  const auto s = b.first({.max_cells = 1});
   ASSERT_TRUE(s);
   EXPECT_NEAR(mean_length(b.mesh, *s), 3, 1e-12);
 }
 
 TEST(TryRefine, SplitsEachCellOfTheSheet) {
   Bench b(make_long_cells());
-  const auto s = b.first(100);
+  const auto s = b.first({.max_cells = 100});
   ASSERT_TRUE(s && try_refine(b.context, *s, {}));
   EXPECT_EQ(b.mesh.n_cells(), 12 + 4);
   EXPECT_EQ(counts(extract_base_complex(b.mesh)), (BaseCounts{8, 12, 6, 1}));
