@@ -82,9 +82,11 @@ Json to_json(const RunState& s) {
   return {{"step", s.step},
           {"failed_in_a_row", s.failed_in_a_row},
           {"distance_share", s.distance_share},
+          {"target_cells", s.target_cells},
           {"sheets", to_json(s.sheets)},
           {"chords", to_json(s.chords)},
           {"peels", to_json(s.peels)},
+          {"coarsened", s.coarsened},
           {"refined", s.refined},
           {"refinement_failed", s.refinement_failed},
           {"seconds", s.seconds},
@@ -97,9 +99,11 @@ RunState run_state(const Json& j) {
     s.step = j.at("step").get<int>();
     s.failed_in_a_row = j.at("failed_in_a_row").get<int>();
     s.distance_share = j.at("distance_share").get<double>();
+    s.target_cells = j.at("target_cells").get<double>();
     s.sheets = trial_counts(j.at("sheets"));
     s.chords = trial_counts(j.at("chords"));
     s.peels = trial_counts(j.at("peels"));
+    s.coarsened = j.at("coarsened").get<int>();
     s.refined = j.at("refined").get<int>();
     s.refinement_failed = j.at("refinement_failed").get<int>();
     s.seconds = j.at("seconds").get<double>();
@@ -107,9 +111,10 @@ RunState run_state(const Json& j) {
   } catch (const nlohmann::json::exception& error) {
     throw InputError(std::string("the state of the run cannot be read: ") + error.what());
   }
-  if (s.step < 0 || !(s.distance_share > 0 && s.distance_share <= 1)) {
-    throw InputError(fmt::format("step = {}, distance_share = {}, expected >= 0 and (0, 1]", s.step,
-                                 s.distance_share));
+  if (s.step < 0 || !(s.distance_share > 0 && s.distance_share <= 1) || !(s.target_cells > 0)) {
+    throw InputError(fmt::format(
+        "step = {}, distance_share = {}, target_cells = {}, expected >= 0, (0, 1] and > 0", s.step,
+        s.distance_share, s.target_cells));
   }
   return s;
 }
@@ -132,6 +137,7 @@ Json lasting_options(const SimplifyOptions& o) {
   return {{"ranking", name(o.ranking)},
           {"weights", to_json(o.weights)},
           {"chords", o.chords},
+          {"coarsen", o.coarsen},
           {"peels", o.peels},
           {"hausdorff_limit_rel", o.hausdorff_limit_rel},
           {"min_scaled_jacobian", o.min_scaled_jacobian},

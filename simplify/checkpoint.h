@@ -28,9 +28,10 @@ struct RunState {
   int step = 0;  ///< 0: the mesh is the input still
   int failed_in_a_row = 0;
   double distance_share =
-      1;  ///< (0, 1] of the Hausdorff limit, which the loop keeps at its sampling
+      1;                    ///< (0, 1] of the Hausdorff limit, which the loop keeps at its sampling
+  double target_cells = 1;  ///< > 0, the count of cells that the loop keeps near
   TrialCounts sheets, chords, peels;
-  int refined = 0, refinement_failed = 0;
+  int coarsened = 0, refined = 0, refinement_failed = 0;
   double seconds = 0;
   Profile profile;
 };

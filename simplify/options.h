@@ -39,7 +39,10 @@ struct SimplifyOptions {
   Ranking ranking = Ranking::weighted;  ///< by what the candidates are ordered
   RankingWeights weights = octree_weights();
   bool chords = true;  ///< collapse chords between sheets
-  bool peels = true;   ///< take sheets off single faces where no sheet or chord can be collapsed
+  bool coarsen =
+      true;  ///< first take layers out of sheets that have several and do without (coarsen.h);
+             ///< where that made it short of cells, the loop goes on when they are back
+  bool peels = true;  ///< take sheets off single faces where no sheet or chord can be collapsed
 
   double hausdorff_limit_rel = 0.01;  ///< (0, 1], of the input's bounding-box diagonal, both ways
   double min_scaled_jacobian = 0.1;   ///< [0, 1); a step may not leave its region below both this

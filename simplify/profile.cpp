@@ -29,9 +29,9 @@ double share(const Profile& profile, Stage stage) {
 
 std::string_view name(Stage stage) {
   static constexpr std::array<std::string_view, kStages> names = {
-      "other",      "preparation",  "base_complex",    "ranking",  "planning",      "trial",
-      "plan_check", "structure",    "parametrization", "distance", "full_distance", "relief",
-      "refinement", "verification", "smoothing",       "reporting"};
+      "other",      "preparation", "base_complex",    "ranking",   "planning",      "trial",
+      "plan_check", "structure",   "parametrization", "distance",  "full_distance", "relief",
+      "coarsening", "refinement",  "verification",    "smoothing", "reporting"};
   return names[static_cast<std::size_t>(stage)];
 }
 

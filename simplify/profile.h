@@ -31,6 +31,7 @@ enum class Stage {
   distance,         ///< of trials and splits: to the surface, where it changed
   full_distance,    ///< of trials and splits close to the limit: at full sampling
   relief,           ///< relaxing round the place farthest from the surface
+  coarsening,       ///< taking out layers; what it has in common with trials counts there
   refinement,       ///< splitting sheets
   verification,     ///< distance at full sampling, figures of the output
   smoothing,        ///< of the whole mesh at the end

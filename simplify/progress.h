@@ -16,6 +16,7 @@ enum class StepKind {
   sheet,       ///< a sheet was collapsed
   chord,       ///< a chord was collapsed
   peel,        ///< a sheet was taken off a face of the surface
+  coarsening,  ///< layers were taken out of sheets, before the first collapse
   refinement,  ///< a sheet was split
   relief,      ///< the place farthest from the surface, or the whole mesh, was relaxed
   smoothing    ///< the whole mesh was smoothed; the last one
@@ -35,7 +36,8 @@ struct SimplifyProgress {
   std::optional<ChordTerms> chord_terms = {};  ///< of a chord, before it went
 
   int attempt = 0;  ///< of several, from 0
-  int step = 0;     ///< collapses and splits so far; relief and smoothing belong to the one before
+  int step =
+      0;  ///< collapses, splits and layers taken out so far; relief and smoothing belong to the one before
   int hexahedra = 0;
   /// When last counted. Of collapses far enough from each other to be made at one go they are counted
   /// after the last.

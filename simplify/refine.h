@@ -3,6 +3,7 @@
 /// It adds a layer of cells and leaves the base complex as it is. Source [Xu2021, §6].
 #pragma once
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -11,10 +12,14 @@
 
 namespace hexweft {
 
+/// For RefineOptions::by_distance: the longest of all comes first, whatever its distance.
+inline constexpr int kAllSheets = std::numeric_limits<int>::max();
+
 struct RefineOptions {
   int max_cells = 0;            ///< a sheet may hold at most so many
   double min_length_rel = 1.2;  ///< > 0, mean length across, of the mean edge length of the mesh
-  int by_distance = 4;  ///< >= 0, sheets looked at in the order of their mean distance first
+  /// >= 0, of so many with the largest mean distance the longest comes first
+  int by_distance = 4;
 };
 
 /// The sheets that may be split, by their lowest edges, in the order to try them: each time, of those

@@ -133,6 +133,7 @@ nlohmann::ordered_json SimplifyReport::json() const {
                               {"sheets", to_json(sheets)},
                               {"chords", to_json(chords)},
                               {"peels", to_json(peels)},
+                              {"coarsened", coarsened},
                               {"refined", refined},
                               {"refinement_failed", refinement_failed},
                               {"seconds", seconds},

@@ -53,6 +53,7 @@ struct SimplifyReport {
   double hausdorff_ratio = 0;  ///< of the output, at full sampling
   StopReason stopped = StopReason::nothing_left;
   TrialCounts sheets, chords, peels;
+  int coarsened = 0;          ///< layers taken out before the first collapse
   int refined = 0;            ///< sheets split
   int refinement_failed = 0;  ///< sheets whose split failed, or was undone since it led nowhere
   double seconds = 0;         ///< earlier runs of a resumed one included

@@ -18,6 +18,9 @@
 
 namespace hexweft {
 
+/// Of the distance limit: what is below that counts as none where a run can do without the difference.
+inline constexpr double kNegligible = 0.2;
+
 /// What the trials of a run share. The mesh and its distance always belong together.
 struct TrialContext {
   HexMesh& mesh;

@@ -58,6 +58,9 @@ void add_options(CLI::App& app, Request& r) {
       ->check(cli::in_range(1, 1000))
       ->capture_default_str();
   app.add_flag("--no-chords", r.no_chords, "Collapse no chords");
+  app.add_flag_callback(
+      "--no-coarsening", [&o] { o.coarsen = false; },
+      "Keep all layers of sheets that have several, though they could do without some for a while");
   app.add_flag("--no-peels", r.no_peels, "Take no sheets off single faces of the surface");
   app.add_flag_callback(
       "--no-careful-trials", [&o] { o.careful.wanted = false; },

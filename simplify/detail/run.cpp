@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "ovm/errors.h"
+#include "simplify/coarsen.h"
 #include "simplify/refine.h"
 
 namespace hexweft::detail {
@@ -17,11 +18,10 @@ constexpr double kLoopShare = 0.95;
 constexpr double kRefineBelow = 0.9;
 constexpr double kLongAcross = 1.0;
 constexpr int kSplitsAtOnce = 5;
+// Layers are taken out of the input if this share of the wanted count is left then, or less.
+constexpr double kCoarse = 0.5;
 // Up to this share sheets are split when nothing else goes on.
 constexpr double kMostCells = 1.1;
-
-// The loop does not tell distances below this share of the limit apart.
-constexpr double kNegligible = 0.2;
 
 SimplifyOptions careful_options(SimplifyOptions options) {
   options.min_scaled_jacobian =
@@ -59,7 +59,7 @@ Run::Run(HexMesh& mesh, const ReferenceSurface& reference, const SimplifyOptions
                summarize_topology(mesh),
                kLoopShare * options.hausdorff_limit_rel * reference_.bounding_box_diagonal(),
                options.hausdorff_limit_rel * reference_.bounding_box_diagonal(),
-               static_cast<int>(kMostCells * options.target_hexahedra_rel * mesh.n_cells()),
+               0,
                &clock_},
       bc_(extract_base_complex(mesh)),
       careful_{careful_options(options), options.careful.wanted},
@@ -70,6 +70,7 @@ Run::Run(HexMesh& mesh, const ReferenceSurface& reference, const SimplifyOptions
     throw InputError(fmt::format("{} regions of the base complex are no cuboids", bc_.irregular));
   }
   report_.before = measure_mesh(mesh);
+  aim_at(full_count());
   verified_ = mesh;
   verified_components_ = report_.before.components;
 }
@@ -77,11 +78,12 @@ Run::Run(HexMesh& mesh, const ReferenceSurface& reference, const SimplifyOptions
 SimplifyReport Run::run() {
   clock_.back_to(Stage::other);
   observe({.what = StepKind::start});
+  coarsen_input();
   loop();
   go_on_afresh();
+  go_on_with_all_cells();
   if (report_.collapses() == 0 && made_room_) give_back_input();
-  while (!is_cut_short() && is_short_of_cells(kRefineBelow) && refine(0)) {
-  }
+  refine_to_target();
   end_with_what_may_be_written();
   keep_checkpoint(true);
   const bool smoothing = step_ > 0 && options_.smooth && !is_cut_short();
@@ -89,6 +91,45 @@ SimplifyReport Run::run() {
   measure_output(smoothing);
   if (smoothing) tell_of_output({.what = StepKind::smoothing});
   return report_;
+}
+
+// With fewer cells every trial costs less, and where they are many for their surface the loop comes
+// farther: what has to move round a collapse to make up for it is so many cells wide.
+void Run::coarsen_input() {
+  const double most = kCoarse * full_count();  // as many cells as components are left at least
+  if (!options_.coarsen || step_ > 0 || static_cast<double>(bc_.components.size()) > most) return;
+  const int gone = timed(Stage::coarsening, [&] {
+    return coarsen(context_, bc_, careful_.options, [&] { return is_cut_short(); });
+  });
+  if (gone == 0) return;
+  const std::size_t components = bc_.components.size();
+  replace_mesh(mesh_);
+  // A node on a closed curve may have moved, and what it cuts with it.
+  const bool keeps_structure = bc_.irregular == 0 && bc_.components.size() <= components;
+  if (!keeps_structure || mesh_.n_cells() > most) {
+    replace_mesh(verified_);
+    return;
+  }
+  step_ += gone;
+  report_.coarsened = gone;
+  made_room_ = true;
+  aim_at(std::min<double>(mesh_.n_cells(), full_count()));
+  observe({.what = StepKind::coarsening});
+  record();
+}
+
+// What the loop has left of the distance may do for more when there are cells enough to spend it well.
+void Run::go_on_with_all_cells() {
+  if (is_cut_short()) return;
+  const bool was_coarse = target_cells_ < full_count();
+  aim_at(full_count());
+  if (!was_coarse || report_.collapses() == 0) return;
+  refine_to_target();
+  if (!is_stuck()) return;
+  forget_failures();
+  failed_in_a_row_ = 0;
+  report_.stopped = StopReason::nothing_left;
+  loop();
 }
 
 void Run::loop(bool boldly) {
@@ -101,11 +142,10 @@ void Run::loop(bool boldly) {
 
 void Run::collapse_while_possible(std::span<Manner* const> in_turn) {
   // Splitting a sheet comes before a second look at what failed lately: it gives that more room.
-  const double long_enough = RefineOptions().min_length_rel;
   refine_while_short();
   while (!should_stop()) {
     if (collapse_some(in_turn, true)) continue;
-    if (!refine(long_enough, kMostCells) && !collapse_some(in_turn.subspan(1), false)) break;
+    if (!refine({}, kMostCells) && !collapse_some(in_turn.subspan(1), false)) break;
   }
 }
 
@@ -137,9 +177,17 @@ void Run::relax_mesh() {
   record();
 }
 
+// The longest first: there is nothing to be done about the distance any more. Of any length, as the
+// mesh may have come to be short of cells where none is long.
+void Run::refine_to_target() {
+  const RefineOptions longest = {.min_length_rel = 0, .by_distance = kAllSheets};
+  while (!is_cut_short() && is_short_of_cells(kRefineBelow) && refine(longest)) {
+  }
+}
+
 void Run::refine_while_short() {
   for (int i = 0; i < kSplitsAtOnce && is_short_of_cells(kRefineBelow); ++i) {
-    if (!refine(kLongAcross)) break;
+    if (!refine({.min_length_rel = kLongAcross})) break;
   }
 }
 
@@ -169,22 +217,24 @@ bool Run::should_stop() {
   return true;
 }
 
-bool Run::is_short_of_cells(double share) const {
-  return mesh_.n_cells() < share * options_.target_hexahedra_rel * report_.before.hexahedra;
+double Run::full_count() const { return options_.target_hexahedra_rel * report_.before.hexahedra; }
+
+void Run::aim_at(double cells) {
+  target_cells_ = cells;
+  context_.most_cells = static_cast<int>(kMostCells * cells);
 }
+
+bool Run::is_short_of_cells(double share) const { return mesh_.n_cells() < share * target_cells_; }
 
 // Splits one sheet if there is room for it. The next one is chosen anew: a split shortens what lies
 // beside it, and to take several by the same measures leaves a tenth more components in the end.
-bool Run::refine(double min_length_rel, double most_cells_rel) {
+bool Run::refine(RefineOptions options, double most_cells_rel) {
   const auto refining = timer(Stage::refinement);
-  RefineOptions refine;
-  refine.min_length_rel = min_length_rel;
-  const double target = options_.target_hexahedra_rel * report_.before.hexahedra;
-  refine.max_cells = static_cast<int>(
-      std::max(1.5 * (target - mesh_.n_cells()), most_cells_rel * target - mesh_.n_cells()));
+  options.max_cells = static_cast<int>(std::max(1.5 * (target_cells_ - mesh_.n_cells()),
+                                                most_cells_rel * target_cells_ - mesh_.n_cells()));
   constexpr int kTries = 4;  // what makes one split fail holds for most others
   int failed = 0;
-  for (EdgeHandle e : list_sheets_to_refine(mesh_, distance_, refine, not_refinable_)) {
+  for (EdgeHandle e : list_sheets_to_refine(mesh_, distance_, options, not_refinable_)) {
     if (failed == kTries || is_cut_short()) break;
     if (refine_one(dual_sheet(mesh_, e))) return true;
     ++failed;

@@ -11,6 +11,7 @@
 #include "simplify/checkpoint.h"
 #include "simplify/failure_memory.h"
 #include "simplify/peel.h"
+#include "simplify/refine.h"
 #include "simplify/trial.h"
 
 namespace hexweft::detail {
@@ -52,14 +53,19 @@ class Run {
   };
 
   // ---- The loop (run.cpp) ----
+  void coarsen_input();
   void loop(bool boldly = true);
   void collapse_while_possible(std::span<Manner* const> in_turn);
   void go_on_afresh();
+  void go_on_with_all_cells();
   bool is_stuck();
   void relax_mesh();
   void refine_while_short();
-  bool refine(double min_length_rel, double most_cells_rel = 1);
+  void refine_to_target();
+  bool refine(RefineOptions options, double most_cells_rel = 1);
   bool refine_one(const DualSheet& sheet);
+  double full_count() const;  // of cells, that the output is to have
+  void aim_at(double cells);
   bool is_short_of_cells(double share) const;
   bool should_stop();   // for good or for lack of progress
   bool is_cut_short();  // asked to stop, or out of time
@@ -131,8 +137,9 @@ class Run {
   SimplifyReport report_;
   HexMesh verified_;  // the last mesh that may be written; at first the input
   int verified_components_ = 0;
-  int step_ = 0;            // collapses and splits that the mesh is away from the input
-  bool made_room_ = false;  // by splits or relaxing, which are for nothing without a collapse
+  double target_cells_ = 0;  // what the loop keeps the count near
+  int step_ = 0;             // collapses and splits that the mesh is away from the input
+  bool made_room_ = false;   // by splits or relaxing, which are for nothing without a collapse
   std::vector<SimplifyProgress> observed_;  // not told yet: the components are still to be counted
   bool in_round_ = false, last_round_failed_ = false;
   int failed_in_a_row_ = 0;  // trials that came as far as the geometry, since the last accepted one

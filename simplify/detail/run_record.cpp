@@ -52,9 +52,11 @@ void Run::go_on_from(const Checkpoint& from) {
   made_room_ = true;
   failed_in_a_row_ = s.failed_in_a_row;
   context_.distance_limit = s.distance_share * context_.final_limit;
+  aim_at(s.target_cells);
   report_.sheets = s.sheets;
   report_.chords = s.chords;
   report_.peels = s.peels;
+  report_.coarsened = s.coarsened;
   report_.refined = s.refined;
   report_.refinement_failed = s.refinement_failed;
   earlier_seconds_ = s.seconds;
@@ -70,9 +72,11 @@ RunState Run::state() {
   s.step = step_;
   s.failed_in_a_row = failed_in_a_row_;
   s.distance_share = context_.distance_limit / context_.final_limit;
+  s.target_cells = target_cells_;
   s.sheets = report_.sheets;
   s.chords = report_.chords;
   s.peels = report_.peels;
+  s.coarsened = report_.coarsened;
   s.refined = report_.refined;
   s.refinement_failed = report_.refinement_failed;
   s.seconds = earlier_seconds_ + seconds();
@@ -196,7 +200,7 @@ void Run::compact() {
   replace_mesh(mesh_);
 }
 
-// Splits and relaxing that made room for no collapse were for nothing.
+// Splits, layers taken out and relaxing that made room for no collapse were for nothing.
 void Run::give_back_input() {
   const auto extracting = timer(Stage::base_complex);
   replace_mesh(verified_);
@@ -204,6 +208,7 @@ void Run::give_back_input() {
   made_room_ = false;
   report_.refinement_failed += report_.refined;
   report_.refined = 0;
+  report_.coarsened = 0;
 }
 
 void Run::smooth_all() {

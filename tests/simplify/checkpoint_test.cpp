@@ -101,6 +101,20 @@ TEST(Checkpoint, KeepingThemDoesNotChangeTheRun) {
   EXPECT_LE(kept, report.collapses() + report.refined + 1);
 }
 
+// What the loop does with fewer cells than the input has goes on with as many.
+TEST(Checkpoint, OfACoarsenedMeshKnowsItsCount) {
+  const HexMesh input = split_in_eight(make_pillowed_grid(3));
+  const int spare = 10;  // layers
+  const Checkpoint from = checkpoint_after(spare + 1, input);
+  ASSERT_EQ(from.state.coarsened, spare);
+  EXPECT_LT(from.state.target_cells, input.n_cells() / 4);
+  HexMesh mesh = input;
+  const SimplifyReport report = resume_simplify(mesh, from);
+  expect_good_output(input, mesh, report);
+  EXPECT_EQ(report.coarsened, from.state.coarsened);
+  EXPECT_GE(report.after.hexahedra, 0.85 * input.n_cells());
+}
+
 TEST(Checkpoint, OfAFinishedRunEndsAtOnceWithNoMore) {
   const HexMesh input = make_pillowed_grid(3);
   std::optional<Checkpoint> kept;

@@ -10,21 +10,13 @@
 #include "tests/mesh_families.h"
 #include "tests/ovm/mesh_dump.h"
 #include "tests/simplify/test_meshes.h"
+#include "tests/simplify/trial_bench.h"
 
 namespace hexweft {
 namespace {
 
-struct Bench {
-  explicit Bench(HexMesh m)
-      : mesh(std::move(m)),
-        reference(make_reference_surface(mesh)),
-        distance(mesh, reference),
-        context{mesh,
-                reference,
-                distance,
-                summarize_topology(mesh),
-                0.01 * reference.bounding_box_diagonal(),
-                0.01 * reference.bounding_box_diagonal()} {}
+struct Bench : TrialBench {
+  using TrialBench::TrialBench;
   std::vector<EdgeHandle> list(const RefineOptions& o,
                                std::span<const EdgeHandle> excluded = {}) const {
     return list_sheets_to_refine(mesh, distance, o, excluded);
@@ -34,10 +26,6 @@ struct Bench {
     const auto all = list(o);
     return all.empty() ? std::nullopt : std::optional(dual_sheet(mesh, all.front()));
   }
-  HexMesh mesh;
-  ReferenceSurface reference;
-  SurfaceDistance distance;
-  TrialContext context;
 };
 
 // 3 x 2 x 2 cells of size 2 x 1 x 1.
@@ -107,6 +95,32 @@ TEST(SheetsToRefine, BeginWithTheLongestOfTheFarthest) {
   const auto s = b.first({.max_cells = 1});
   ASSERT_TRUE(s);
   EXPECT_NEAR(mean_length(b.mesh, *s), 3, 1e-12);
+}
+
+// A thin sheet that is far from the surface stays so however often it is split.
+TEST(SheetsToRefine, AreTheLongestFirstWhereDistanceDoesNotMatter) {
+  HexMesh mesh = make_grid({6, 1, 1});
+  for (VertexHandle v : mesh.vertices()) {
+    Eigen::Vector3d p = mesh.point(v);
+    p.x() = p.x() * p.x();
+    mesh.set_point(v, p);
+  }
+  Bench b(mesh);
+  for (VertexHandle v : b.mesh.vertices()) {
+    const Eigen::Vector3d p = b.mesh.point(v);
+    if (p.x() <= 1) b.mesh.set_point(v, p + Eigen::Vector3d(0, 0, 0.1));
+  }
+  b.distance.after_change(b.mesh);
+  b.distance.commit();
+  const auto lengths = [&](int by_distance) {
+    std::vector<double> result;
+    for (EdgeHandle e : b.list({.max_cells = 1, .min_length_rel = 0, .by_distance = by_distance}))
+      result.push_back(mean_length(b.mesh, dual_sheet(b.mesh, e)));
+    return result;
+  };
+  EXPECT_NEAR(lengths(1).front(), 1, 0.01);
+  EXPECT_THAT(lengths(kAllSheets), testing::Pointwise(testing::DoubleNear(0.01),
+                                                      std::vector<double>{11, 9, 7, 5, 3, 1}));
 }
 
 TEST(TryRefine, SplitsEachCellOfTheSheet) {

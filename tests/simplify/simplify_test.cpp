@@ -215,6 +215,7 @@ void expect_comes_back(const HexMesh& input, const SimplifyOptions& options = {}
   ASSERT_EQ(report.collapses(), 0);
   EXPECT_TRUE(content(mesh) == content(input));
   EXPECT_EQ(report.refined, 0);
+  EXPECT_EQ(report.coarsened, 0);
   EXPECT_EQ(report.stopped, StopReason::nothing_left);
   expect_good_output(input, mesh, report);
 }
@@ -242,6 +243,49 @@ TEST(Simplify, RoundSectionBecomesASingleBlockWhereTheDistanceAllowsIt) {
   EXPECT_GE(far.after.mean_scaled_jacobian, far.before.mean_scaled_jacobian);
 }
 
+// A sphere whose inner sheets do without half of their layers, as its surface is flat enough.
+HexMesh make_fine_sphere() { return split_in_eight(make_small_sphere()); }
+
+SimplifyOptions far_options() {
+  SimplifyOptions options;
+  options.hausdorff_limit_rel = 0.05;
+  return options;
+}
+
+TEST(Simplify, FineInputIsCoarsenedFirstAndHasItsHexahedraInTheEnd) {
+  const HexMesh input = make_fine_sphere();
+  SimplifyOptions options = far_options();
+  std::vector<SimplifyProgress> steps;
+  options.observer = [&](const SimplifyProgress& p) { steps.push_back(p); };
+  const SimplifyReport report = simplify_well(input, options);
+  EXPECT_GT(report.coarsened, 0);
+  EXPECT_GT(report.collapses(), 0);
+  EXPECT_GE(report.after.hexahedra, 0.7 * input.n_cells());
+  EXPECT_LE(report.after.hexahedra, 1.15 * input.n_cells());
+  ASSERT_GE(steps.size(), 2u);
+  EXPECT_EQ(steps[1].what, StepKind::coarsening);
+  EXPECT_EQ(steps[1].step, report.coarsened);
+  EXPECT_EQ(steps[1].components, report.before.components);
+  EXPECT_LT(steps[1].hexahedra, input.n_cells());
+}
+
+TEST(Simplify, NoLayerIsTakenOutUnasked) {
+  SimplifyOptions options = far_options();
+  options.coarsen = false;
+  EXPECT_EQ(simplify_well(make_fine_sphere(), options).coarsened, 0);
+}
+
+TEST(Simplify, StopDuringTheCoarseningLeavesAValidMesh) {
+  SimplifyOptions options = far_options();
+  std::stop_source source;
+  options.stop = source.get_token();
+  std::jthread later([&source] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    source.request_stop();
+  });
+  simplify_well(make_fine_sphere(), options);
+}
+
 TEST(Simplify, MoreHexahedraComeWhenAskedForEvenIfNothingGoes) {
   const HexMesh input = make_grid({4, 3, 2});
   HexMesh mesh = input;
@@ -252,6 +296,23 @@ TEST(Simplify, MoreHexahedraComeWhenAskedForEvenIfNothingGoes) {
   EXPECT_GT(mesh.n_cells(), 40);
   EXPECT_GT(report.refined, 0);
   EXPECT_EQ(report.after.components, 1);
+}
+
+// Not the same few sheets over and over.
+TEST(Simplify, ManyMoreHexahedraAreNoFlatOnes) {
+  HexMesh mesh = make_grid({4, 3, 2});
+  SimplifyOptions options;
+  options.target_hexahedra_rel = 30;
+  simplify(mesh, options);
+  EXPECT_GT(mesh.n_cells(), 0.85 * 30 * 24);
+  double shortest = 1, longest = 0;
+  for (EdgeHandle e : mesh.edges()) {
+    const auto [a, b] = mesh.vertices(e);
+    const double length = (mesh.point(a) - mesh.point(b)).norm();
+    shortest = std::min(shortest, length);
+    longest = std::max(longest, length);
+  }
+  EXPECT_LT(longest, 4 * shortest);
 }
 
 TEST(Simplify, StopDuringRefinementEndsIt) {

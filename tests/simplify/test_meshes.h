@@ -2,7 +2,10 @@
 /// Meshes whose structure is known by hand, and what several tests of simplify/ ask of a mesh.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstdlib>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -43,6 +46,42 @@ inline HexMesh extrude(const std::vector<std::array<double, 2>>& points,
     }
   }
   return mesh;
+}
+
+/// Every hexahedron split in eight, its new vertices at the means of what they are in the middle of.
+inline HexMesh split_in_eight(const HexMesh& mesh) {
+  HexMesh fine;
+  std::map<std::vector<VertexHandle>, VertexHandle> middle_of;
+  for (CellHandle c : mesh.cells()) {
+    const CellVertices corners = mesh.vertices(c);
+    // Of a grid of 3 x 3 x 3 vertices, the one in the middle of some of the corners.
+    const auto at = [&](int i, int j, int k) {
+      std::vector<VertexHandle> around;
+      for (int corner = 0; corner < 8; ++corner) {
+        const auto [x, y, z] = kCornerCoords[corner];
+        if (std::abs(2 * x - i) < 2 && std::abs(2 * y - j) < 2 && std::abs(2 * z - k) < 2)
+          around.push_back(corners[corner]);
+      }
+      std::sort(around.begin(), around.end());
+      const auto [found, is_new] = middle_of.try_emplace(around);
+      if (is_new) {
+        Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+        for (VertexHandle v : around) sum += mesh.point(v);
+        found->second = fine.add_vertex(sum / static_cast<double>(around.size()));
+      }
+      return found->second;
+    };
+    for (int part = 0; part < 8; ++part) {
+      const auto [i, j, k] = kCornerCoords[part];
+      CellVertices v;
+      for (int corner = 0; corner < 8; ++corner) {
+        const auto [x, y, z] = kCornerCoords[corner];
+        v[corner] = at(i + x, j + y, k + z);
+      }
+      fine.add_cell(v);
+    }
+  }
+  return fine;
 }
 
 /// Points and quadrilaterals of a plane mesh.

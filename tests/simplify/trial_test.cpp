@@ -8,29 +8,10 @@
 #include "tests/ovm/mesh_dump.h"
 #include "tests/simplify/prediction.h"
 #include "tests/simplify/test_meshes.h"
+#include "tests/simplify/trial_bench.h"
 
 namespace hexweft {
 namespace {
-
-// A mesh with all that a trial needs.
-struct Bench {
-  explicit Bench(HexMesh m, double limit_rel = 0.01, FeatureMode features = FeatureMode::off)
-      : mesh(std::move(m)),
-        reference(make_reference_surface(mesh, 40, {.mode = features})),
-        distance(mesh, reference),
-        context{mesh,
-                reference,
-                distance,
-                summarize_topology(mesh),
-                limit_rel * reference.bounding_box_diagonal(),
-                limit_rel * reference.bounding_box_diagonal()},
-        bc(extract_base_complex(mesh)) {}
-  HexMesh mesh;
-  ReferenceSurface reference;
-  SurfaceDistance distance;
-  TrialContext context;
-  BaseComplex bc;
-};
 
 struct DistanceState {
   explicit DistanceState(const SurfaceDistance& d)
@@ -41,7 +22,7 @@ struct DistanceState {
 };
 
 // Tries plans until one is accepted; each that is refused must leave everything as it was.
-TrialResult first_accepted(Bench& b, const SimplifyOptions& options, std::size_t step,
+TrialResult first_accepted(TrialBench& b, const SimplifyOptions& options, std::size_t step,
                            std::array<int, kRefusals>& refused) {
   const auto plans = all_plans(b.mesh, b.bc, 5);
   for (std::size_t i = 0; i < plans.size(); i += step) {
@@ -60,7 +41,7 @@ TrialResult first_accepted(Bench& b, const SimplifyOptions& options, std::size_t
 }
 
 TEST(Trial, AcceptedOneIsValidSimplerAndNear) {
-  Bench b(make_octree_like(Shape::sphere, 7));
+  TrialBench b(make_octree_like(Shape::sphere, 7));
   const double limit = b.context.distance_limit;
   std::array<int, kRefusals> refused = {};
   for (int step = 0; step < 4; ++step) {
@@ -80,7 +61,7 @@ TEST(Trial, AcceptedOneIsValidSimplerAndNear) {
 }
 
 TEST(Trial, ArmOfAnLIsTooFarFromTheInput) {
-  Bench b(make_l_shape(2));
+  TrialBench b(make_l_shape(2));
   int legal = 0;
   for (const Sheet& s : extract_sheets(b.bc)) {
     const CollapsePlan plan = plan_sheet_collapse(b.mesh, b.bc, s);
@@ -98,7 +79,7 @@ TEST(Trial, ArmOfAnLIsTooFarFromTheInput) {
 }
 
 TEST(Trial, OutlookIsWhatTheMergeLeaves) {
-  Bench b(make_l_shape(2));
+  TrialBench b(make_l_shape(2));
   SimplifyOptions any;
   any.merged_give_up_factor = 1e6;
   int seen = 0;
@@ -137,7 +118,7 @@ TEST(Trial, OutlookIsWhatTheMergeLeaves) {
 }
 
 TEST(Trial, ArmOfAnLTakesCornersAlong) {
-  Bench b(make_l_shape(2), 1.0, FeatureMode::automatic);
+  TrialBench b(make_l_shape(2), 1.0, FeatureMode::automatic);
   int by_feature = 0;
   for (const Sheet& s : extract_sheets(b.bc)) {
     const CollapsePlan plan = plan_sheet_collapse(b.mesh, b.bc, s);
@@ -151,7 +132,7 @@ TEST(Trial, ArmOfAnLTakesCornersAlong) {
 
 TEST(Trial, WithinAWideLimitAnArmGoes) {
   // The two components that stay make one straight grid.
-  Bench b(make_l_shape(2), 1.0);
+  TrialBench b(make_l_shape(2), 1.0);
   SimplifyOptions options;
   options.hausdorff_limit_rel = 1;
   std::array<int, kRefusals> refused = {};
@@ -163,7 +144,7 @@ TEST(Trial, WithinAWideLimitAnArmGoes) {
 
 TEST(Trial, ClosingACavityIsRefused) {
   // The middle layer holds the cavity; without it there would be none.
-  Bench b(make_hollow_box(), 1.0);
+  TrialBench b(make_hollow_box(), 1.0);
   SimplifyOptions options;
   options.hausdorff_limit_rel = 1;
   int n = 0;
@@ -182,7 +163,7 @@ TEST(Trial, ClosingACavityIsRefused) {
 TEST(Trial, QualityFloorIsKept) {
   SimplifyOptions options;
   options.min_scaled_jacobian = options.mean_scaled_jacobian = 0.999;
-  Bench b(make_pillowed_grid(5));
+  TrialBench b(make_pillowed_grid(5));
   const auto sj_before = min_scaled_jacobian(b.mesh);
   for (const Sheet& s : extract_sheets(b.bc)) {
     const TrialResult result =
@@ -193,7 +174,7 @@ TEST(Trial, QualityFloorIsKept) {
 }
 
 TEST(Trial, PillowIsTakenOutOfItsGridAgain) {
-  Bench b(make_pillowed_grid(5));
+  TrialBench b(make_pillowed_grid(5));
   for (const Sheet& s : extract_sheets(b.bc)) {
     if (s.kind != SheetKind::closed) continue;
     const TrialResult result =
@@ -220,7 +201,7 @@ TEST(CellsAround, RingsOfAGrid) {
 }
 
 TEST(Trial, RelaxingAllKeepsTheLimitsOrEverything) {
-  Bench b(make_octree_like(Shape::blob, 8, 2));
+  TrialBench b(make_octree_like(Shape::blob, 8, 2));
   const double least = min_scaled_jacobian(b.mesh);
   int kept = 0;
   for (const double share : {1.0, 0.01}) {
@@ -242,7 +223,7 @@ TEST(Trial, RelaxingAllKeepsTheLimitsOrEverything) {
 }
 
 TEST(Trial, ARefusalOverTheDistanceNamesTheMergesRoundThePlace) {
-  Bench b(make_octree_like(Shape::sphere, 7), 0.002);
+  TrialBench b(make_octree_like(Shape::sphere, 7), 0.002);
   int named = 0;
   for (const CollapsePlan& plan : all_plans(b.mesh, b.bc, 5)) {
     const TrialResult result = try_collapse(b.context, b.bc, plan, {});
