@@ -83,7 +83,8 @@ SimplifyReport Run::run() {
   go_on_afresh();
   go_on_with_all_cells();
   if (report_.collapses() == 0 && made_room_) give_back_input();
-  refine_to_target();
+  while (!is_cut_short() && is_short_of_cells(kRefineBelow) && refine_longest()) {
+  }
   end_with_what_may_be_written();
   keep_checkpoint(true);
   const bool smoothing = step_ > 0 && options_.smooth && !is_cut_short();
@@ -120,16 +121,21 @@ void Run::coarsen_input() {
 
 // What the loop has left of the distance may do for more when there are cells enough to spend it well.
 void Run::go_on_with_all_cells() {
-  if (is_cut_short()) return;
-  const bool was_coarse = target_cells_ < full_count();
+  const bool was_coarse = target_cells_ < full_count() && report_.collapses() > 0;
+  if (was_coarse) put_layers_back();
   aim_at(full_count());
-  if (!was_coarse || report_.collapses() == 0) return;
-  refine_to_target();
-  if (!is_stuck()) return;
+  if (!was_coarse || !is_stuck()) return;
   forget_failures();
   failed_in_a_row_ = 0;
   report_.stopped = StopReason::nothing_left;
   loop();
+}
+
+// Also where the run is cut short: it takes a moment, and the count is a part of what is asked for.
+void Run::put_layers_back() {
+  aim_at(std::min<double>(full_count(), report_.before.hexahedra));
+  while (is_short_of_cells(kRefineBelow) && refine_longest()) {
+  }
 }
 
 void Run::loop(bool boldly) {
@@ -177,17 +183,13 @@ void Run::relax_mesh() {
   record();
 }
 
-// The longest first: there is nothing to be done about the distance any more. Of any length, as the
-// mesh may have come to be short of cells where none is long.
-void Run::refine_to_target() {
-  const RefineOptions longest = {.min_length_rel = 0, .by_distance = kAllSheets};
-  while (!is_cut_short() && is_short_of_cells(kRefineBelow) && refine(longest)) {
-  }
-}
+// There is nothing to be done about the distance any more. Of any length, as the mesh may have come to
+// be short of cells where none is long.
+bool Run::refine_longest() { return refine({.min_length_rel = 0, .by_distance = kAllSheets}); }
 
 void Run::refine_while_short() {
   for (int i = 0; i < kSplitsAtOnce && is_short_of_cells(kRefineBelow); ++i) {
-    if (!refine({.min_length_rel = kLongAcross})) break;
+    if (is_cut_short() || !refine({.min_length_rel = kLongAcross})) break;
   }
 }
 
@@ -235,7 +237,7 @@ bool Run::refine(RefineOptions options, double most_cells_rel) {
   constexpr int kTries = 4;  // what makes one split fail holds for most others
   int failed = 0;
   for (EdgeHandle e : list_sheets_to_refine(mesh_, distance_, options, not_refinable_)) {
-    if (failed == kTries || is_cut_short()) break;
+    if (failed == kTries) break;
     if (refine_one(dual_sheet(mesh_, e))) return true;
     ++failed;
     ++report_.refinement_failed;

@@ -61,7 +61,8 @@ class Run {
   bool is_stuck();
   void relax_mesh();
   void refine_while_short();
-  void refine_to_target();
+  void put_layers_back();
+  bool refine_longest();
   bool refine(RefineOptions options, double most_cells_rel = 1);
   bool refine_one(const DualSheet& sheet);
   double full_count() const;  // of cells, that the output is to have

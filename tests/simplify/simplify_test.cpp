@@ -275,6 +275,20 @@ TEST(Simplify, NoLayerIsTakenOutUnasked) {
   EXPECT_EQ(simplify_well(make_fine_sphere(), options).coarsened, 0);
 }
 
+TEST(Simplify, CutShortAFineInputHasItsHexahedraAllTheSame) {
+  const HexMesh input = make_fine_sphere();
+  SimplifyOptions options = far_options();
+  std::stop_source source;
+  options.stop = source.get_token();
+  options.observer = [&](const SimplifyProgress& p) {
+    if (is_collapse(p.what)) source.request_stop();
+  };
+  const SimplifyReport report = simplify_well(input, options);
+  EXPECT_EQ(report.stopped, StopReason::interrupted);
+  EXPECT_GT(report.coarsened, 0);
+  EXPECT_GE(report.after.hexahedra, 0.85 * input.n_cells());
+}
+
 TEST(Simplify, StopDuringTheCoarseningLeavesAValidMesh) {
   SimplifyOptions options = far_options();
   std::stop_source source;
