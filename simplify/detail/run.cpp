@@ -103,14 +103,15 @@ void Run::coarsen_input() {
     return coarsen(context_, bc_, careful_.options, [&] { return is_cut_short(); });
   });
   if (gone == 0) return;
-  const std::size_t components = bc_.components.size();
-  replace_mesh(mesh_);
-  // A node on a closed curve may have moved, and what it cuts with it.
-  const bool keeps_structure = bc_.irregular == 0 && bc_.components.size() <= components;
+  // A node on a closed curve may have moved, and what it cuts with it: fewer components will do as well.
+  BaseComplex now;
+  const bool keeps_structure =
+      check_structure(context_, bc_.components.size() + 1, now) == Refusal::none;
   if (!keeps_structure || mesh_.n_cells() > most) {
     replace_mesh(verified_);
     return;
   }
+  replace_mesh(mesh_);
   step_ += gone;
   report_.coarsened = gone;
   made_room_ = true;
