@@ -42,6 +42,7 @@ std::vector<std::vector<EdgeHandle>> list_spare_layers(const HexMesh& mesh, cons
   }
   std::sort(by_length.begin(), by_length.end());
   std::vector<std::vector<EdgeHandle>> spare;
+  spare.reserve(by_length.size());
   for (const auto& [length, id] : by_length) spare.push_back(std::move(layers[id].edges));
   return spare;
 }
