@@ -116,12 +116,14 @@ double scaled_jacobian(const HexMesh& mesh, CellHandle c) {
 double volume(const HexMesh& mesh, CellHandle c) { return volume(points(mesh, c)); }
 double shape_metric(const HexMesh& mesh, CellHandle c) { return shape_metric(points(mesh, c)); }
 
+double edge_length(const HexMesh& mesh, EdgeHandle e) {
+  const auto [a, b] = mesh.vertices(e);
+  return (mesh.point(b) - mesh.point(a)).norm();
+}
+
 double mean_edge_length(const HexMesh& mesh) {
   double sum = 0;
-  for (EdgeHandle e : mesh.edges()) {
-    const auto& ends = mesh.vertices(e);
-    sum += (mesh.point(ends[1]) - mesh.point(ends[0])).norm();
-  }
+  for (EdgeHandle e : mesh.edges()) sum += edge_length(mesh, e);
   return mesh.n_edges() > 0 ? sum / mesh.n_edges() : 0.0;
 }
 

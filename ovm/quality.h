@@ -51,6 +51,7 @@ struct QualitySummary {
 /// \param n_worst  how many cells to list at most
 QualitySummary summarize_quality(const HexMesh& mesh, int n_worst = 10);
 
+double edge_length(const HexMesh& mesh, EdgeHandle e);  ///< model units
 /// \return 0 for a mesh without edges
 double mean_edge_length(const HexMesh& mesh);
 

@@ -5,45 +5,35 @@
 #include <span>
 #include <utility>
 
+#include "ovm/quality.h"
 #include "simplify/detail/plan_builder.h"
 #include "simplify/sheet.h"
 
 namespace hexweft {
 namespace {
 
-EdgeHandle edge_between(const HexMesh& mesh, VertexHandle a, VertexHandle b) {
-  const auto edges = mesh.edges(a);
-  return *std::find_if(edges.begin(), edges.end(),
-                       [&](EdgeHandle e) { return mesh.other_end(e, a) == b; });
-}
-
 double mean_length(const HexMesh& mesh, std::span<const EdgeHandle> edges) {
   double sum = 0;
-  for (EdgeHandle e : edges) {
-    const auto [a, b] = mesh.vertices(e);
-    sum += (mesh.point(a) - mesh.point(b)).norm();
-  }
+  for (EdgeHandle e : edges) sum += edge_length(mesh, e);
   return sum / static_cast<double>(edges.size());
 }
 
 }  // namespace
 
 std::vector<std::vector<EdgeHandle>> list_spare_layers(const HexMesh& mesh, const BaseComplex& bc) {
-  std::vector<DualSheet> layers = list_dual_sheets(mesh);
-  const DualSheets layer_of = extract_dual_sheets(mesh);
-  std::vector<std::pair<double, int>> by_length;
+  std::vector<std::pair<double, std::vector<EdgeHandle>>> by_length;
   for (const Sheet& sheet : extract_sheets(bc)) {
     if (sheet.kind != SheetKind::open && sheet.kind != SheetKind::closed) continue;
     const auto chain = bc.chain(bc.edges[sheet.edges.front()]);
     for (int i = 1; i < sheet.width; i += 2) {
-      const int id = layer_of[edge_between(mesh, chain[i], chain[i + 1])];
-      by_length.emplace_back(mean_length(mesh, layers[id].edges), id);
+      DualSheet layer = dual_sheet(mesh, mesh.find_edge(chain[i], chain[i + 1]));
+      by_length.emplace_back(mean_length(mesh, layer.edges), std::move(layer.edges));
     }
   }
   std::sort(by_length.begin(), by_length.end());
   std::vector<std::vector<EdgeHandle>> spare;
   spare.reserve(by_length.size());
-  for (const auto& [length, id] : by_length) spare.push_back(std::move(layers[id].edges));
+  for (auto& [length, edges] : by_length) spare.push_back(std::move(edges));
   return spare;
 }
 
@@ -116,22 +106,19 @@ int coarsen(TrialContext& context, const BaseComplex& bc, const SimplifyOptions&
     context.labels.reset();
     return true;
   };
-  for (bool goes_on = true; goes_on;) {
-    goes_on = false;
+  for (BaseComplex now = bc;; now = extract_base_complex(mesh)) {
+    const int before = gone;
     stays.resize(mesh.edge_slots(), 0);
-    const BaseComplex now = extract_base_complex(mesh);
     std::vector<char> ends = count_ends(mesh, now);
     for (const std::vector<EdgeHandle>& edges : list_spare_layers(mesh, now)) {
       if (should_stop()) return gone;
       const auto left =
           std::find_if(edges.begin(), edges.end(), [&](EdgeHandle e) { return mesh.is_live(e); });
       if (left == edges.end() || stays[left->idx]) continue;
-      if (!take_out(dual_sheet(mesh, *left), ends)) continue;
-      ++gone;
-      goes_on = true;
+      gone += take_out(dual_sheet(mesh, *left), ends);
     }
+    if (gone == before) return gone;
   }
-  return gone;
 }
 
 }  // namespace hexweft

@@ -23,8 +23,7 @@ std::vector<Measured> measure_sheets(const HexMesh& mesh, const SurfaceDistance&
   std::vector<int> edges(sheets.n_sheets, 0), sides(sheets.n_sheets, 0);
   for (EdgeHandle e : mesh.edges()) {
     const int sheet = sheets[e];
-    const auto [a, b] = mesh.vertices(e);
-    result[sheet].length += (mesh.point(a) - mesh.point(b)).norm();
+    result[sheet].length += edge_length(mesh, e);
     if (edges[sheet]++ == 0) result[sheet].first = e;
   }
   for (CellHandle c : mesh.cells()) {

@@ -6,6 +6,7 @@
 #include "optimize/hex_energy.h"
 #include "ovm/dual.h"
 #include "ovm/edit/split_sheet.h"
+#include "ovm/quality.h"
 
 namespace hexweft {
 namespace {
@@ -23,13 +24,10 @@ Refusal refusal_of(ParametrizationFailure failure) {
 }
 
 EdgeHandle longest_edge(const HexMesh& mesh, HalfFaceHandle side) {
-  const auto length = [&](EdgeHandle e) {
-    const auto [a, b] = mesh.vertices(e);
-    return (mesh.point(a) - mesh.point(b)).norm();
-  };
   const auto edges = mesh.edges(side);
-  return *std::max_element(edges.begin(), edges.end(),
-                           [&](EdgeHandle a, EdgeHandle b) { return length(a) < length(b); });
+  return *std::max_element(edges.begin(), edges.end(), [&](EdgeHandle a, EdgeHandle b) {
+    return edge_length(mesh, a) < edge_length(mesh, b);
+  });
 }
 
 class RegionRelaxation {

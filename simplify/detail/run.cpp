@@ -105,9 +105,8 @@ void Run::coarsen_input() {
   if (gone == 0) return;
   // A node on a closed curve may have moved, and what it cuts with it: fewer components will do as well.
   BaseComplex now;
-  const bool keeps_structure =
-      check_structure(context_, bc_.components.size() + 1, now) == Refusal::none;
-  if (!keeps_structure || mesh_.n_cells() > most) {
+  if (mesh_.n_cells() > most ||
+      check_structure(context_, bc_.components.size() + 1, now) != Refusal::none) {
     replace_mesh(verified_);
     return;
   }
@@ -125,11 +124,7 @@ void Run::go_on_with_all_cells() {
   const bool was_coarse = target_cells_ < full_count() && report_.collapses() > 0;
   if (was_coarse) put_layers_back();
   aim_at(full_count());
-  if (!was_coarse || !is_stuck()) return;
-  forget_failures();
-  failed_in_a_row_ = 0;
-  report_.stopped = StopReason::nothing_left;
-  loop();
+  if (was_coarse && is_stuck()) loop_afresh();
 }
 
 // Also where the run is cut short: it takes a moment, and the count is a part of what is asked for.
@@ -145,6 +140,14 @@ void Run::loop(bool boldly) {
   do {
     collapse_while_possible(in_turn);
   } while (options_.peels && is_stuck() && peel_some(in_turn));
+}
+
+// What has failed may be tried again at once.
+void Run::loop_afresh(bool boldly) {
+  forget_failures();
+  failed_in_a_row_ = 0;
+  report_.stopped = StopReason::nothing_left;
+  loop(boldly);
 }
 
 void Run::collapse_while_possible(std::span<Manner* const> in_turn) {
@@ -163,10 +166,7 @@ void Run::go_on_afresh() {
   for (int i = 0; i < kMost && is_stuck(); ++i) {
     const int before = report_.collapses();
     relax_mesh();
-    forget_failures();
-    failed_in_a_row_ = 0;
-    report_.stopped = StopReason::nothing_left;
-    loop(false);  // bold trials would fail again, and take most of the time
+    loop_afresh(false);  // bold trials would fail again, and take most of the time
     if (report_.collapses() == before) break;
   }
 }

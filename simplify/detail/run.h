@@ -55,6 +55,7 @@ class Run {
   // ---- The loop (run.cpp) ----
   void coarsen_input();
   void loop(bool boldly = true);
+  void loop_afresh(bool boldly = true);
   void collapse_while_possible(std::span<Manner* const> in_turn);
   void go_on_afresh();
   void go_on_with_all_cells();
@@ -139,8 +140,8 @@ class Run {
   HexMesh verified_;  // the last mesh that may be written; at first the input
   int verified_components_ = 0;
   double target_cells_ = 0;  // what the loop keeps the count near
-  int step_ = 0;             // collapses and splits that the mesh is away from the input
-  bool made_room_ = false;   // by splits or relaxing, which are for nothing without a collapse
+  int step_ = 0;             // collapses, splits and layers that the mesh is away from the input
+  bool made_room_ = false;   // by what is for nothing without a collapse: layers, splits, relaxing
   std::vector<SimplifyProgress> observed_;  // not told yet: the components are still to be counted
   bool in_round_ = false, last_round_failed_ = false;
   int failed_in_a_row_ = 0;  // trials that came as far as the geometry, since the last accepted one

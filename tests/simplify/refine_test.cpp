@@ -36,10 +36,7 @@ HexMesh make_long_cells() {
 
 double mean_length(const HexMesh& mesh, const DualSheet& s) {
   double sum = 0;
-  for (EdgeHandle e : s.edges) {
-    const auto [a, b] = mesh.vertices(e);
-    sum += (mesh.point(a) - mesh.point(b)).norm();
-  }
+  for (EdgeHandle e : s.edges) sum += edge_length(mesh, e);
   return sum / static_cast<double>(s.edges.size());
 }
 
