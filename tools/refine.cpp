@@ -48,13 +48,18 @@ int split_layers(cli::SingleTrial& trial, int id, const SimplifyOptions& options
 // Splits the first sheet that can be. \return whether there is one
 bool split_one(cli::SingleTrial& trial, const Request& request) {
   HexMesh& mesh = trial.mesh();
-  RefineOptions refine;
-  refine.max_cells = static_cast<int>(1.5 * (*request.hexahedra - mesh.n_cells()));
-  refine.min_length_rel = request.min_length_rel;
-  const auto order = list_sheets_to_refine(mesh, trial.distance(), refine);
-  return std::any_of(order.begin(), order.end(), [&](EdgeHandle e) {
-    return try_refine(trial.context(), dual_sheet(mesh, e), request.trial.options);
-  });
+  const auto split_first = [&](RefineOptions refine) {
+    refine.max_cells = static_cast<int>(1.5 * (*request.hexahedra - mesh.n_cells()));
+    const auto order = list_sheets_to_refine(mesh, trial.distance(), refine);
+    return std::any_of(order.begin(), order.end(), [&](EdgeHandle e) {
+      return try_refine(trial.context(), dual_sheet(mesh, e), request.trial.options);
+    });
+  };
+  // What is short and far from the surface stays so however often it is split.
+  constexpr double kLong = 1;
+  const double least = request.min_length_rel;
+  return split_first({.min_length_rel = std::max(least, kLong)}) ||
+         (least < kLong && split_first({.min_length_rel = least, .by_distance = kAllSheets}));
 }
 
 // Splits sheets until there are so many hexahedra or none qualifies. \return sheets split

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/hex_mesh_io.h"
+#include "ovm/dual.h"
 #include "ovm/property.h"
 #include "ovm/quality.h"
 #include "ovm/topology_check.h"
@@ -204,6 +205,24 @@ TEST_F(RefineTool, SplitsUpToACount) {
   EXPECT_EQ(after["components"], before["components"]);
   EXPECT_GE(after["hexahedra"], wanted);
   EXPECT_LE(after["hexahedra"], wanted * 3 / 2);
+}
+
+// A layer that is far from the surface stays so, but is not split for it over and over.
+TEST_F(RefineTool, MakesNoThinLayersWhereTheSurfaceIsFar) {
+  make("octree-like --shape blob --resolution 8");
+  ASSERT_EQ(run("hexweft-simplify in.vtk -o far.vtk --hausdorff 0.03").exit_code, 0);
+  const ToolRun result =
+      run("hexweft-refine far.vtk -o out.vtk --surface in.vtk --hausdorff 0.04 --hexahedra 20000");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const HexMesh mesh = read_hex_mesh(file("out.vtk"));
+  const double mean = mean_edge_length(mesh);
+  double thinnest = mean;
+  for (const DualSheet& layer : list_dual_sheets(mesh)) {
+    double length = 0;
+    for (EdgeHandle e : layer.edges) length += edge_length(mesh, e);
+    thinnest = std::min(thinnest, length / static_cast<double>(layer.edges.size()));
+  }
+  EXPECT_GT(thinnest, mean / 5);
 }
 
 TEST_F(RefineTool, RefusesWhatItCannotUse) {
