@@ -36,27 +36,44 @@ inline double resolution_for(double limit, double size) {
   return std::max(0.05 * limit, 2e-4 * size);
 }
 
+/// How far a point is, and the piece of the other surface that it was found to be so far from; -1 if
+/// that is not told.
+struct FoundDistance {
+  double distance;
+  int piece = -1;
+};
+
 /// A point that was looked at, and its distance, or some more where that is small.
 struct Sample {
   Eigen::Vector3d point;
   double distance;
+  int piece;  ///< as FoundDistance
 };
 
-/// Looks for the sample of greatest distance: a part of a triangle whose corners and centroid are
-/// close enough needs no closer look.
-template <class Distance>
+/// Where pieces are not told.
+struct CoversNothing {
+  bool operator()(int, const Sample&, const Sample&, const Sample&, double) const { return false; }
+};
+
+/// Looks for the sample of greatest distance. A part of a triangle needs no closer look if its corners
+/// and centroid are close enough for its size; or if all of its corners are close enough to the same
+/// convex piece, as the distance to that is nowhere in the part more than at a corner.
+template <class Distance, class Covers = CoversNothing>
 class FarthestSample {
  public:
-  /// \param distance  (point, enough) → its distance, which changes by no more than the point moves,
-  ///                  or, if that is at most `enough`, any number from it to `enough`
+  /// \param distance  (point, enough) → FoundDistance; the distance changes by no more than the point
+  ///                  moves, but if it is at most `enough`, may be any number from it to `enough`
   /// \param at_least  below it distances are not told apart
   /// \param enough    beyond it the search is over
   /// \param resolution  > 0: parts with a larger covering radius are divided further than they were
   ///                    asked for, unless nothing in them can be farther than ten times that
+  /// \param covers    (piece, three samples, d) → whether all of them are within d of a convex part of
+  ///                  the piece that one of them was found to be near to
   FarthestSample(Distance distance, double at_least,
                  double enough = std::numeric_limits<double>::infinity(),
-                 double resolution = std::numeric_limits<double>::infinity())
+                 double resolution = std::numeric_limits<double>::infinity(), Covers covers = {})
       : distance_(std::move(distance)),
+        covers_(std::move(covers)),
         farthest_(at_least),
         enough_(enough),
         resolution_(resolution) {}
@@ -66,9 +83,9 @@ class FarthestSample {
   Sample look_at(const Eigen::Vector3d& p) {
     constexpr double kNear =
         0.25;  // of the farthest: what is nearer lets large parts be passed over
-    const double d = distance_(p, kNear * farthest_);
-    farthest_ = std::max(farthest_, d);
-    return {p, d};
+    const FoundDistance found = distance_(p, kNear * farthest_);
+    farthest_ = std::max(farthest_, found.distance);
+    return {p, found.distance, found.piece};
   }
 
   /// The centroid of a triangle of which the corners were looked at, and the corners and centroids of
@@ -96,7 +113,12 @@ class FarthestSample {
     return std::max({a.distance, b.distance, c.distance});
   }
   bool is_close(const Sample& a, const Sample& b, const Sample& c) const {
-    return farthest_corner(a, b, c) + radius(a, b, c) <= farthest_;
+    return farthest_corner(a, b, c) + radius(a, b, c) <= farthest_ || is_covered(a, b, c);
+  }
+  bool is_covered(const Sample& a, const Sample& b, const Sample& c) const {
+    const auto by = [&](int piece) { return piece >= 0 && covers_(piece, a, b, c, farthest_); };
+    return by(a.piece) || (b.piece != a.piece && by(b.piece)) ||
+           (c.piece != a.piece && c.piece != b.piece && by(c.piece));
   }
   bool is_coarse(const Sample& a, const Sample& b, const Sample& c) const {
     constexpr double kFaint = 10;  // resolutions: small distances need not be known as well
@@ -105,6 +127,7 @@ class FarthestSample {
   }
 
   Distance distance_;
+  Covers covers_;
   double farthest_, enough_, resolution_;
 };
 

@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include "optimize/covered_parts.h"
 #include "optimize/farthest_sample.h"
 #include "ovm/errors.h"
 #include "ovm/hex_mesh.h"
@@ -69,11 +70,9 @@ double one_sided_distance(const ReferenceSurface& from, const ReferenceSurface& 
           ? options.points_per_surface
           : static_cast<double>(options.points_per_triangle) *
                 static_cast<double>(std::max(triangles.size(), to.triangles().size()));
-  int near = -1;
-  FarthestSample farthest(
-      [&](const Eigen::Vector3d& p, double enough) { return to.distance(p, near, enough); },
-      options.at_least, options.enough,
-      options.resolution.value_or(usual_resolution(to.bounding_box_diagonal())));
+  FarthestSample farthest(DistanceTo(to), options.at_least, options.enough,
+                          options.resolution.value_or(usual_resolution(to.bounding_box_diagonal())),
+                          CoveredByTriangle{to});
   SharedCorners corners(farthest, points);
   for (const auto& t : triangles) {
     if (farthest.done()) break;

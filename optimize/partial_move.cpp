@@ -11,12 +11,12 @@ constexpr int kHalvings = 2;  // of the way that is taken back, then all of it
 class PartialMove {
  public:
   PartialMove(HexMesh& mesh, const Region& before, SurfaceDistance& distance,
-              const MoveLimits& limits)
+              const MoveLimits& limits, const WorthKeeping& worth_keeping)
       : mesh_(mesh),
         before_(before),
         distance_(distance),
         limits_(limits),
-        distance_before_(distance.distance()),
+        worth_keeping_(worth_keeping),
         side_distances_before_(side_distances()),
         scaled_jacobians_(scaled_jacobians(before.points, before.hexes)),
         goal_(before.points),
@@ -30,6 +30,9 @@ class PartialMove {
 
  private:
   std::vector<double> side_distances() const;
+  double distance_before() const {
+    return *std::max_element(side_distances_before_.begin(), side_distances_before_.end());
+  }
   void place();
   bool mark_bad_hexes();
   bool mark_far_sides();
@@ -43,7 +46,8 @@ class PartialMove {
   const Region& before_;
   SurfaceDistance& distance_;
   const MoveLimits& limits_;
-  double distance_before_;                     // of the whole surface, model units
+  const WorthKeeping& worth_keeping_;
+  double moved_distance_ = 0;                  // of what has moved, model units
   std::vector<double> side_distances_before_;  // model units
   std::vector<double> scaled_jacobians_;       // before the move
   Eigen::Matrix3Xd goal_, points_;
@@ -86,8 +90,8 @@ bool PartialMove::mark_bad_hexes() {
 /// Brings the distance up to date. A side that was too far before may stay so, if it gets no
 /// farther. \return whether any side is too far
 bool PartialMove::mark_far_sides() {
-  const double d = distance_.after_change(mesh_, before_.cells);
-  if (d <= limits_.distance) return false;
+  moved_distance_ = distance_.after_change(mesh_, before_.cells);
+  if (moved_distance_ <= limits_.distance) return false;
   const std::vector<double> now = side_distances();
   const auto got_farther = [&](std::size_t side) {
     return now[side] > side_distances_before_[side];
@@ -96,7 +100,7 @@ bool PartialMove::mark_far_sides() {
   for (std::size_t i = 0; i < now.size(); ++i) {
     if (got_farther(i)) farthest = std::max(farthest, now[i]);
   }
-  if (farthest <= limits_.distance && d <= distance_before_) return false;
+  if (farthest <= limits_.distance && moved_distance_ <= distance_before()) return false;
   // Those about as far as the farthest go back with it: they would be the next.
   constexpr double kClose = 0.9;
   const double threshold = std::min(limits_.distance, kClose * farthest);
@@ -111,7 +115,7 @@ bool PartialMove::mark_far_sides() {
 /// \return whether a place there is too far; the first that is found is marked
 bool PartialMove::mark_far_between() {
   constexpr double kSafe = 0.9, kSuspect = 0.6;
-  if (distance_.distance() <= kSafe * limits_.between) return false;
+  if (moved_distance_ <= kSafe * limits_.between) return false;
   if (distance_.change_is_within(limits_.between, kSuspect)) return false;
   Eigen::Index nearest;
   (points_.colwise() - *distance_.too_far_at()).colwise().squaredNorm().minCoeff(&nearest);
@@ -168,6 +172,8 @@ bool PartialMove::run() {
     std::fill(marked_.begin(), marked_.end(), 0);
     if (mark_far_sides()) {
       take_back_round_marks(at_samples++);
+    } else if (worth_keeping_ && !worth_keeping_(scaled_jacobians(points_, before_.hexes))) {
+      break;  // what lies between the samples costs most, and takes away more
     } else if (mark_far_between()) {
       take_back_round_marks(kHalvings);  // all the way at once: each look costs much
       ++between;
@@ -182,8 +188,8 @@ bool PartialMove::run() {
 }  // namespace
 
 bool keep_what_fits(HexMesh& mesh, const Region& before, SurfaceDistance& distance,
-                    const MoveLimits& limits) {
-  return PartialMove(mesh, before, distance, limits).run();
+                    const MoveLimits& limits, const WorthKeeping& worth_keeping) {
+  return PartialMove(mesh, before, distance, limits, worth_keeping).run();
 }
 
 }  // namespace hexweft

@@ -6,7 +6,9 @@
 ///     if (keep_what_fits(mesh, before, distance, limits)) { ...; distance.commit(); }
 #pragma once
 
+#include <functional>
 #include <limits>
+#include <vector>
 
 #include "optimize/region.h"
 #include "optimize/surface_distance.h"
@@ -21,13 +23,18 @@ struct MoveLimits {
   double between = std::numeric_limits<double>::infinity();
 };
 
+/// Asked with the scaled Jacobians of the hexahedra of the region.
+using WorthKeeping = std::function<bool(const std::vector<double>& scaled_jacobians)>;
+
 /// Takes vertices back towards where they were, half the way and in the end all of it, round every
 /// hexahedron and side that breaks a limit, in ever wider surroundings; all the way at once round a
 /// place between the samples.
 /// \param before    the region as it was; only its free vertices have moved
 /// \param distance  of the mesh before the move; afterwards, if true, up to date but not committed
-/// \return false if no part of the move fits; the points are then anything between
+/// \param worth_keeping  of what fits; all of it is if this is empty
+/// \return false if no part of the move fits, or what does is not worth it; the points are then
+///         anything between
 bool keep_what_fits(HexMesh& mesh, const Region& before, SurfaceDistance& distance,
-                    const MoveLimits& limits);
+                    const MoveLimits& limits, const WorthKeeping& worth_keeping = {});
 
 }  // namespace hexweft

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "optimize/covered_parts.h"
 #include "optimize/farthest_sample.h"
 #include "optimize/surface_distance.h"
 
@@ -15,10 +16,9 @@ constexpr int kLevels = 3;  // 64 parts of a triangle of mean size, each with it
 
 bool SurfaceDistance::change_is_within(double limit, double skip_rel) {
   too_far_at_.reset();
-  int near = -1;
-  FarthestSample farthest(
-      [&](const Eigen::Vector3d& p, double enough) { return reference_.distance(p, near, enough); },
-      limit, limit, resolution_for(limit, reference_.bounding_box_diagonal()));
+  FarthestSample farthest(DistanceTo(reference_), limit, limit,
+                          resolution_for(limit, reference_.bounding_box_diagonal()),
+                          CoveredByTriangle{reference_});
   for (const SideUndo& u : side_undo_) {
     if (!grid_.contains(u.side) || forward_[u.side] < skip_rel * limit) continue;
     const QuadPoints& q = grid_.points(u.side);
@@ -42,9 +42,10 @@ bool SurfaceDistance::changed_triangles_are_within(double limit, double skip) {
       [&](const Eigen::Vector3d& p, double) {
         const QuadGrid::Nearest nearest = grid_.nearest(p, guess);
         guess = nearest.id;
-        return std::sqrt(nearest.squared_distance);
+        return FoundDistance{std::sqrt(nearest.squared_distance), nearest.id};
       },
-      limit, limit, resolution_for(limit, reference_.bounding_box_diagonal()));
+      limit, limit, resolution_for(limit, reference_.bounding_box_diagonal()),
+      CoveredByQuad{grid_});
   const auto& triangles = reference_.triangles();
   // A side that moved can come nearest to, or leave, parts of the triangles beside these as well.
   std::vector<char> near_change(reference_.points().cols(), 0);

@@ -56,9 +56,10 @@ struct SimplifyOptions {
   /// > 0, attempts at a time; a single one uses two, for the two directions of distance checks at
   /// full sampling
   int threads = 1;
-  bool smooth = true;           ///< global smoothing at the end
-  int smoothing_trials = 300;   ///< >= 0, passes over the neighbourhoods of the worst cells then
-  double give_up_factor = 1.5;  ///< >= 1; half relaxed and so many limits away, a trial ends
+  bool smooth = true;  ///< global smoothing at the end
+  int smoothing_trials =
+      400;  ///< >= 0, passes over the neighbourhoods of the worst cells then, in each of two cycles
+  double give_up_factor = 1.5;       ///< >= 1; half relaxed and so many limits away, a trial ends
   double merged_give_up_factor = 2;  ///< >= 1; the same before anything has moved
   /// >= 0, sheets that a collapse may split where it leaves the surface too far away, two a layer and
   /// two more at most; H stays under 1.1 times the target, or what it was before the collapse. Trials

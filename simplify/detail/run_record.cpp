@@ -217,10 +217,9 @@ void Run::smooth_all() {
   const std::stop_callback when_asked(options_.stop, [&cut] { cut.request_stop(); });
   const std::jthread when_late =
       options_.max_seconds ? stop_after(*options_.max_seconds - seconds(), cut) : std::jthread();
-  // One cycle: the next would take a tenth of the time of the run for a little. What collapses leave
-  // is poor in few places: passes over the whole mesh for its worst cells gain less than they cost.
+  // What collapses leave is poor in few places: passes over the whole mesh for its worst cells gain
+  // less than they cost.
   const SmoothingOptions options = {.hausdorff_limit_rel = options_.hausdorff_limit_rel,
-                                    .cycles = 1,
                                     .global_rounds = 0,
                                     .local_trials = options_.smoothing_trials,
                                     .parametrization = options_.parametrization,

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "optimize/covered_parts.h"
 #include "optimize/reference_surface.h"
 #include "tests/optimize/test_meshes.h"
 
@@ -81,7 +82,7 @@ TEST(FarthestSample, IsThatOfLookingEverywhere) {
         [&](const Eigen::Vector3d& x, double enough) {
           ++looks;
           const double d = distance(x);
-          return d <= enough ? enough : d;  // the most that is allowed
+          return FoundDistance{d <= enough ? enough : d};  // the most that is allowed
         },
         0);
     double expected = 0;
@@ -106,7 +107,7 @@ TEST(FarthestSample, DividesLargePartsUntilNothingIsMissed) {
     const double u = random.uniform(0, 1), v = random.uniform(0, 1 - u);
     const Eigen::Vector3d place = t[0] + u * (t[1] - t[0]) + v * (t[2] - t[0]);
     const auto tent = [&](const Eigen::Vector3d& x, double) {
-      return std::max(0.0, kWidth - (x - place).norm());
+      return FoundDistance{std::max(0.0, kWidth - (x - place).norm())};
     };
     int looks = 0;
     FarthestSample farthest(
@@ -118,10 +119,48 @@ TEST(FarthestSample, DividesLargePartsUntilNothingIsMissed) {
   }
 }
 
+// Random triangles near a ball: with the triangles of its surface as pieces the same is found, and
+// parts all of whose corners are near the same one are not looked into.
+TEST(FarthestSample, PassesOverWhatOneTriangleCovers) {
+  const ReferenceSurface surface = make_reference_surface(make_ball(6));
+  Random random(6);
+  constexpr double kLimit = 0.1;
+  constexpr int kLevels = 4;
+  int looks_with = 0, looks_without = 0, beyond = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Eigen::Vector3d centre = random_triangle(random, 1)[0].normalized();
+    Triangle t;
+    for (auto& p : t)
+      p = (1 + random.uniform(-0.11, 0.11)) *
+          (centre + 0.2 * random_triangle(random, 1)[0]).normalized();
+    const auto counting = [&](int& looks) {
+      return [&looks, to = DistanceTo(surface)](const Eigen::Vector3d& p, double enough) mutable {
+        ++looks;
+        return to(p, enough);
+      };
+    };
+    const auto is_beyond = [&](auto farthest) {
+      farthest.look_at(farthest.look_at(t[0]), farthest.look_at(t[1]), farthest.look_at(t[2]),
+                       kLevels);
+      return farthest.done();
+    };
+    constexpr double kResolution = 0.05 * kLimit;
+    const bool with = is_beyond(FarthestSample(counting(looks_with), kLimit, kLimit, kResolution,
+                                               CoveredByTriangle{surface}));
+    const bool without =
+        is_beyond(FarthestSample(counting(looks_without), kLimit, kLimit, kResolution));
+    EXPECT_EQ(with, without) << i;
+    beyond += without;
+  }
+  EXPECT_GT(beyond, 30);
+  EXPECT_LT(beyond, 270);
+  EXPECT_LT(3 * looks_with, 2 * looks_without);
+}
+
 TEST(FarthestSample, EndsBeyondWhatIsEnough) {
   int looks = 0;
-  FarthestSample farthest([&](const Eigen::Vector3d& x, double) { return ++looks, x.norm(); }, 0,
-                          1);
+  FarthestSample farthest(
+      [&](const Eigen::Vector3d& x, double) { return ++looks, FoundDistance{x.norm()}; }, 0, 1);
   const Sample a = farthest.look_at({0, 0, 2});
   EXPECT_TRUE(farthest.done());
   farthest.look_at(a, a, a, 5);

@@ -93,6 +93,23 @@ TEST(PartialMove, HoldsALimitBetweenTheSamples) {
   EXPECT_EQ(taken_back, 6);
 }
 
+TEST(PartialMove, OfWhatIsNotWorthKeepingNothingIsKept) {
+  Fixture f;
+  const double before = f.distance.distance();
+  Transaction trial(f.mesh);
+  perturb(f.mesh, 0.02, true, 3);
+  const double least = min_scaled_jacobian(f.mesh);
+  const auto is_worth = [&](double wanted) {
+    return [wanted](const std::vector<double>& sj) {
+      return *std::min_element(sj.begin(), sj.end()) >= wanted;
+    };
+  };
+  EXPECT_FALSE(keep_what_fits(f.mesh, f.before, f.distance, {-1, 1}, is_worth(least + 1e-9)));
+  EXPECT_EQ(f.distance.distance(), before);
+  EXPECT_TRUE(keep_what_fits(f.mesh, f.before, f.distance, {-1, 1}, is_worth(least - 1e-9)));
+  EXPECT_GT(f.distance.distance(), before);
+}
+
 TEST(PartialMove, LeavesTheDistanceToBeCommittedOrRolledBack) {
   Fixture f;
   const double before = f.distance.distance();
