@@ -18,8 +18,8 @@ enum class StepKind {
   peel,        ///< a sheet was taken off a face of the surface
   coarsening,  ///< layers were taken out of sheets, before the first collapse
   refinement,  ///< a sheet was split
-  relief,      ///< the place farthest from the surface, or the whole mesh, was relaxed
-  smoothing    ///< the whole mesh was smoothed; the last one
+  relief,      ///< the place farthest from the surface was relaxed
+  smoothing    ///< the whole mesh was smoothed; what is told last
 };
 std::string_view name(StepKind kind);
 constexpr bool is_collapse(StepKind k) {

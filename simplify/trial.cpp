@@ -196,18 +196,6 @@ bool relieve_farthest(TrialContext& context, const SimplifyOptions& options) {
   return true;
 }
 
-bool relax_all(TrialContext& context, const SimplifyOptions& options) {
-  HexMesh& mesh = context.mesh;
-  const std::vector<CellHandle> all = all_cells(mesh);
-  ParametrizationOptions p = options.parametrization;
-  p.min_scaled_jacobian = std::min(options.min_scaled_jacobian, measure_quality(mesh, all).least);
-  Transaction attempt(mesh);
-  if (!parametrize(mesh, all, context.reference, p).valid()) return false;
-  if (!stays_on_surface(context, all)) return false;
-  commit(context, attempt);
-  return true;
-}
-
 std::vector<CellHandle> cells_around(const HexMesh& mesh, std::span<const VertexHandle> vertices,
                                      int rings) {
   std::vector<char> seen_vertex(mesh.vertex_slots(), 0), seen_cell(mesh.cell_slots(), 0);

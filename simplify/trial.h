@@ -96,10 +96,6 @@ std::pair<HalfFaceHandle, double> farthest_side(const SurfaceDistance& distance)
 /// \return whether it did
 bool relieve_farthest(TrialContext& context, const SimplifyOptions& options);
 
-/// Relaxes the whole mesh. Kept only if every hexahedron and the surface are within the limits.
-/// \return whether it is
-bool relax_all(TrialContext& context, const SimplifyOptions& options);
-
 /// The live cells within `rings` of the vertices; ring 1 touches them. Ascending.
 std::vector<CellHandle> cells_around(const HexMesh& mesh, std::span<const VertexHandle> vertices,
                                      int rings);

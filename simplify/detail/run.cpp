@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "ovm/errors.h"
+#include "ovm/quality.h"
 #include "simplify/coarsen.h"
 #include "simplify/refine.h"
 
@@ -22,6 +23,8 @@ constexpr int kSplitsAtOnce = 5;
 constexpr double kCoarse = 0.5;
 // Up to this share sheets are split when nothing else goes on.
 constexpr double kMostCells = 1.1;
+// From the smoothed mesh on; hardly any is for something after these.
+constexpr int kMostGoes = 3;
 
 SimplifyOptions careful_options(SimplifyOptions options) {
   options.min_scaled_jacobian =
@@ -80,18 +83,24 @@ SimplifyReport Run::run() {
   observe({.what = StepKind::start});
   coarsen_input();
   loop();
-  go_on_afresh();
   go_on_with_all_cells();
+  if (report_.collapses() == 0) go_on_from_relaxed();
   if (report_.collapses() == 0 && made_room_) give_back_input();
+  finish();
+  for (int i = 0; i < kMostGoes && is_smoothed() && is_stuck() && improve(); ++i) {
+  }
+  measure_output();
+  if (is_smoothed()) tell_of_output({.what = StepKind::smoothing});
+  return report_;
+}
+
+// What the loop has left is given its count of cells, and smoothed.
+void Run::finish() {
   while (!is_cut_short() && is_short_of_cells(kRefineBelow) && refine_longest()) {
   }
   end_with_what_may_be_written();
   keep_checkpoint(true);
-  const bool smoothing = step_ > 0 && options_.smooth && !is_cut_short();
-  if (smoothing) smooth_all();
-  measure_output(smoothing);
-  if (smoothing) tell_of_output({.what = StepKind::smoothing});
-  return report_;
+  if (step_ > 0 && options_.smooth && !is_cut_short()) smooth_all(smoothing_options());
 }
 
 // With fewer cells every trial costs less, and where they are many for their surface the loop comes
@@ -134,20 +143,19 @@ void Run::put_layers_back() {
   }
 }
 
-void Run::loop(bool boldly) {
-  Manner* const all[] = {&careful_, &ordinary_, &bold_};
-  const auto in_turn = std::span(all).first(boldly ? 3 : 2);
+void Run::loop() {
+  Manner* const in_turn[] = {&careful_, &ordinary_, &bold_};
   do {
     collapse_while_possible(in_turn);
   } while (options_.peels && is_stuck() && peel_some(in_turn));
 }
 
 // What has failed may be tried again at once.
-void Run::loop_afresh(bool boldly) {
+void Run::loop_afresh() {
   forget_failures();
   failed_in_a_row_ = 0;
   report_.stopped = StopReason::nothing_left;
-  loop(boldly);
+  loop();
 }
 
 void Run::collapse_while_possible(std::span<Manner* const> in_turn) {
@@ -159,29 +167,62 @@ void Run::collapse_while_possible(std::span<Manner* const> in_turn) {
   }
 }
 
-// Where nothing goes on any more what has failed is tried once more, if possible after the whole mesh
-// was relaxed, which gives it more distance to spend and better hexahedra to begin with.
-void Run::go_on_afresh() {
-  constexpr int kMost = 3;
-  for (int i = 0; i < kMost && is_stuck(); ++i) {
-    const int before = report_.collapses();
-    relax_mesh();
-    loop_afresh(false);  // bold trials would fail again, and take most of the time
-    if (report_.collapses() == before) break;
-  }
+// Where nothing went at all, it may once the whole mesh is relaxed: that is a little of the smoothing,
+// as most such inputs are at their simplest and all of it would be for nothing.
+void Run::go_on_from_relaxed() {
+  if (!options_.smooth || !is_stuck()) return;
+  SmoothingOptions relaxing = smoothing_options();
+  relaxing.cycles = relaxing.mean_rounds = 1;
+  relaxing.local_trials = 0;
+  smooth_all(relaxing);
+  replace_mesh(mesh_);
+  made_room_ = true;
+  observe({.what = StepKind::smoothing});
+  loop_afresh();
+}
+
+// Has another go from the smoothed mesh. Of the two outcomes the better one is kept.
+// \return whether one more may be worth its time
+bool Run::improve() {
+  constexpr double kWorthMore = 0.95;  // of the components are left at most
+  const Outcome before = outcome();
+  const int collapses = report_.collapses();
+  replace_mesh(mesh_);
+  verified_ = mesh_;
+  verified_components_ = before.components;
+  observe({.what = StepKind::smoothing});
+  record();
+  loop_afresh();
+  if (report_.collapses() > collapses) finish();
+  if (const Outcome now = outcome(); now.is_better_than(before))
+    return now.components <= kWorthMore * before.components;
+  if (!is_smoothed()) return_to(before);
+  return false;
+}
+
+Run::Outcome Run::outcome() const {
+  return {mesh_, tally(), static_cast<int>(bc_.components.size()), min_scaled_jacobian(mesh_),
+          report_.hausdorff_ratio};
+}
+
+// Components for quality: a larger share of them has to be gone than of the least scaled Jacobian.
+bool Run::Outcome::is_better_than(const Outcome& other) const {
+  const double components_left = static_cast<double>(components) / other.components;
+  return components < other.components &&
+         components_left <= min_scaled_jacobian / other.min_scaled_jacobian;
+}
+
+void Run::return_to(const Outcome& before) {
+  replace_mesh(before.mesh);
+  report_.hausdorff_ratio = before.hausdorff_ratio;
+  report_.refinement_failed += report_.refined - before.tally.refined;
+  count_as_refused(before.tally, Refusal::quality);
+  smoothed_step_ = step_;
 }
 
 bool Run::is_stuck() {
   return !is_cut_short() && report_.stopped != StopReason::target_reached &&
          bc_.components.size() > 1;
-}
-
-void Run::relax_mesh() {
-  if (timed(Stage::relief, [&] { return relax_all(context_, options_); })) {
-    made_room_ = true;
-    observe({.what = StepKind::relief});
-  }
-  record();
 }
 
 // There is nothing to be done about the distance any more. Of any length, as the mesh may have come to

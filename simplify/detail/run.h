@@ -6,6 +6,7 @@
 #include <functional>
 #include <span>
 
+#include "optimize/smooth.h"
 #include "ovm/dual.h"
 #include "simplify/candidates.h"
 #include "simplify/checkpoint.h"
@@ -52,15 +53,32 @@ class Run {
     SimplifyProgress step;  ///< but for the plan's width
   };
 
+  struct Tally {
+    int step, refined, sheets, chords, peels;
+  };
+  Tally tally() const {
+    return {step_, report_.refined, report_.sheets.accepted, report_.chords.accepted,
+            report_.peels.accepted};
+  }
+  /// A smoothed mesh, and how the run came there.
+  struct Outcome {
+    HexMesh mesh;
+    Tally tally;
+    int components;
+    double min_scaled_jacobian, hausdorff_ratio;
+    bool is_better_than(const Outcome& other) const;
+  };
+
   // ---- The loop (run.cpp) ----
   void coarsen_input();
-  void loop(bool boldly = true);
-  void loop_afresh(bool boldly = true);
+  void loop();
+  void loop_afresh();
   void collapse_while_possible(std::span<Manner* const> in_turn);
-  void go_on_afresh();
+  void finish();
+  void go_on_from_relaxed();
+  bool improve();
   void go_on_with_all_cells();
   bool is_stuck();
-  void relax_mesh();
   void refine_while_short();
   void put_layers_back();
   bool refine_longest();
@@ -69,17 +87,12 @@ class Run {
   double full_count() const;  // of cells, that the output is to have
   void aim_at(double cells);
   bool is_short_of_cells(double share) const;
+  Outcome outcome() const;
+  void return_to(const Outcome& before);
   bool should_stop();   // for good or for lack of progress
   bool is_cut_short();  // asked to stop, or out of time
 
   // ---- A round of it (run_round.cpp) ----
-  struct Tally {
-    int step, refined, sheets, chords, peels;
-  };
-  Tally tally() const {
-    return {step_, report_.refined, report_.sheets.accepted, report_.chords.accepted,
-            report_.peels.accepted};
-  }
   bool collapse_some(std::span<Manner* const> in_turn, bool patient);
   bool peel_some(std::span<Manner* const> in_turn);
   void know_base_complex();
@@ -97,6 +110,7 @@ class Run {
   void relieve();
   void end(Round& round, const Tally& before, Manner& manner);
   void take_back(Round& round, const Tally& before, Refusal refusal, Manner& manner);
+  void count_as_refused(const Tally& before, Refusal refusal);
 
   // ---- What goes on beside it (run_record.cpp) ----
   double seconds() const;  // since the start of this run
@@ -115,8 +129,10 @@ class Run {
   void forget_failures();
   void compact();
   void give_back_input();
-  void smooth_all();
-  void measure_output(bool smoothed);
+  SmoothingOptions smoothing_options() const;
+  void smooth_all(SmoothingOptions options);
+  bool is_smoothed() const { return smoothed_step_ == step_; }
+  void measure_output();
   StageTimer timer(Stage stage) { return {&clock_, stage}; }
   template <typename Work>
   auto timed(Stage stage, Work&& work) {
@@ -141,6 +157,7 @@ class Run {
   int verified_components_ = 0;
   double target_cells_ = 0;  // what the loop keeps the count near
   int step_ = 0;             // collapses, splits and layers that the mesh is away from the input
+  int smoothed_step_ = -1;   // after which the mesh was smoothed the last time
   bool made_room_ = false;   // by what is for nothing without a collapse: layers, splits, relaxing
   std::vector<SimplifyProgress> observed_;  // not told yet: the components are still to be counted
   bool in_round_ = false, last_round_failed_ = false;

@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "optimize/hausdorff.h"
-#include "optimize/smooth.h"
 #include "ovm/errors.h"
 #include "ovm/neighborhood.h"
 #include "ovm/quality.h"
@@ -205,33 +204,38 @@ void Run::give_back_input() {
   const auto extracting = timer(Stage::base_complex);
   replace_mesh(verified_);
   step_ = 0;
+  smoothed_step_ = -1;
   made_room_ = false;
   report_.refinement_failed += report_.refined;
   report_.refined = 0;
   report_.coarsened = 0;
 }
 
-void Run::smooth_all() {
+// What collapses leave is poor in few places: passes over the whole mesh for its worst cells gain less
+// than they cost.
+SmoothingOptions Run::smoothing_options() const {
+  return {.hausdorff_limit_rel = options_.hausdorff_limit_rel,
+          .global_rounds = 0,
+          .local_trials = options_.smoothing_trials,
+          .parametrization = options_.parametrization,
+          .initial_hausdorff_rel = options_.hausdorff_limit_rel};
+}
+
+void Run::smooth_all(SmoothingOptions options) {
   const auto smoothing = timer(Stage::smoothing);
   std::stop_source cut;
   const std::stop_callback when_asked(options_.stop, [&cut] { cut.request_stop(); });
   const std::jthread when_late =
       options_.max_seconds ? stop_after(*options_.max_seconds - seconds(), cut) : std::jthread();
-  // What collapses leave is poor in few places: passes over the whole mesh for its worst cells gain
-  // less than they cost.
-  const SmoothingOptions options = {.hausdorff_limit_rel = options_.hausdorff_limit_rel,
-                                    .global_rounds = 0,
-                                    .local_trials = options_.smoothing_trials,
-                                    .parametrization = options_.parametrization,
-                                    .initial_hausdorff_rel = options_.hausdorff_limit_rel,
-                                    .stop = cut.get_token()};
+  options.stop = cut.get_token();
   report_.hausdorff_ratio = smooth(mesh_, reference_, options).hausdorff_rel;
+  smoothed_step_ = step_;
   if (cut.stop_requested()) is_cut_short();  // notes down why
 }
 
-void Run::measure_output(bool smoothed) {
+void Run::measure_output() {
   const auto measuring = timer(Stage::verification);
-  if (!smoothed)
+  if (!is_smoothed())
     report_.hausdorff_ratio =
         hausdorff_distance(mesh_, reference_, {.parallel = options_.threads > 1}).ratio();
   mesh_.collect_garbage();

@@ -229,6 +229,13 @@ void Run::take_back(Round& round, const Tally& before, Refusal refusal, Manner& 
   bc_of_this_mesh_ = true;
   not_refinable_.clear();
   observed_.clear();
+  count_as_refused(before, refusal);
+  if (round.collapses().size() == 1)
+    manner.memory.failed(round.collapses().front(), refusal, step_);
+}
+
+// What was accepted since then.
+void Run::count_as_refused(const Tally& before, Refusal refusal) {
   step_ = before.step;
   report_.refined = before.refined;
   const auto refuse = [&](TrialCounts& counts, int accepted_before) {
@@ -238,8 +245,6 @@ void Run::take_back(Round& round, const Tally& before, Refusal refusal, Manner& 
   refuse(report_.sheets, before.sheets);
   refuse(report_.chords, before.chords);
   refuse(report_.peels, before.peels);
-  if (round.collapses().size() == 1)
-    manner.memory.failed(round.collapses().front(), refusal, step_);
 }
 
 }  // namespace hexweft::detail

@@ -408,6 +408,41 @@ TEST(Simplify, ObserverIsToldOfEveryKindOfStep) {
   }
 }
 
+// What is told of the smoothed meshes that it goes on from, and in the end.
+TEST(Simplify, GoesOnFromTheSmoothedMeshToABetterOutcomeOnly) {
+  struct Input {
+    Shape shape;
+    int resolution;
+  };
+  int gained = 0, taken_back = 0;
+  for (const auto& [shape, resolution] :
+       {Input{Shape::sphere, 8}, Input{Shape::blob, 8}, Input{Shape::double_torus, 10}}) {
+    SCOPED_TRACE(name(shape));
+    SimplifyOptions options;
+    std::vector<SimplifyProgress> smoothed;
+    int after_first = 0;
+    options.observer = [&](const SimplifyProgress& p) {
+      if (p.what == StepKind::smoothing) smoothed.push_back(p);
+      after_first += p.what != StepKind::smoothing && !smoothed.empty();
+    };
+    const SimplifyReport report = simplify_well(make_octree_like(shape, resolution), options);
+    if (smoothed.size() < 2) continue;
+    const SimplifyProgress &first = smoothed.front(), &last = smoothed.back();
+    EXPECT_EQ(last.components, report.after.components);
+    if (last.components == first.components) {
+      EXPECT_EQ(last.hexahedra, first.hexahedra);
+      EXPECT_NEAR(last.min_scaled_jacobian, first.min_scaled_jacobian, 1e-12);
+      EXPECT_EQ(last.step, first.step);
+      taken_back += after_first > 0;
+    } else {
+      EXPECT_LE(last.components * first.min_scaled_jacobian,
+                first.components * last.min_scaled_jacobian * (1 + 1e-12));
+      ++gained;
+    }
+  }
+  EXPECT_GT(gained + taken_back, 0);
+}
+
 TEST(Simplify, ProfileAddsUpToTheRun) {
   HexMesh mesh = make_small_sphere();
   const SimplifyReport report = simplify(mesh);

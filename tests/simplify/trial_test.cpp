@@ -200,28 +200,6 @@ TEST(CellsAround, RingsOfAGrid) {
   EXPECT_TRUE(cells_around(mesh, {}, 3).empty());
 }
 
-TEST(Trial, RelaxingAllKeepsTheLimitsOrEverything) {
-  TrialBench b(make_octree_like(Shape::blob, 8, 2));
-  const double least = min_scaled_jacobian(b.mesh);
-  int kept = 0;
-  for (const double share : {1.0, 0.01}) {
-    b.context.distance_limit = share * b.context.final_limit;
-    const MeshDump dump(b.mesh);
-    const DistanceState distance(b.distance);
-    if (relax_all(b.context, {})) {
-      ++kept;
-      EXPECT_FALSE(MeshDump(b.mesh) == dump);
-      EXPECT_LE(b.distance.distance(), b.context.distance_limit);
-      EXPECT_GE(min_scaled_jacobian(b.mesh),
-                std::min(least, SimplifyOptions().min_scaled_jacobian));
-    } else {
-      EXPECT_TRUE(MeshDump(b.mesh) == dump);
-      EXPECT_TRUE(DistanceState(b.distance) == distance);
-    }
-  }
-  EXPECT_EQ(kept, 1);
-}
-
 TEST(Trial, ARefusalOverTheDistanceNamesTheMergesRoundThePlace) {
   TrialBench b(make_octree_like(Shape::sphere, 7), 0.002);
   int named = 0;
