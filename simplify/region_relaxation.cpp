@@ -107,7 +107,7 @@ class RegionRelaxation {
       last = d;
       const DualSheet sheet = dual_sheet(mesh, longest_edge(mesh, side));
       if (mesh.n_cells() + static_cast<int>(sheet.crossings.size()) > most_cells_) return false;
-      split(sheet);
+      if (!split(sheet)) return false;
       const Refusal refusal = relax_after_split();
       if (refusal == Refusal::none) return true;
       if (refusal != Refusal::hausdorff) return false;
@@ -135,15 +135,26 @@ class RegionRelaxation {
   // As bold trials are: there are few of them.
   bool is_thorough() const { return options_.splits_per_trial > 0; }
 
-  // What moves stays the same part of space: elsewhere the split itself does no harm.
-  void split(const DualSheet& sheet) {
+  // What moves stays the same part of space. Elsewhere the parts of a twisted cell may be worse than it
+  // was, even inverted.
+  // \return whether they keep the floor
+  bool split(const DualSheet& sheet) {
     HexMesh& mesh = context_.mesh;
+    const auto is_within = [&](CellHandle c) {
+      return std::binary_search(region_.begin(), region_.end(), c);
+    };
+    std::vector<CellHandle> elsewhere;
+    for (const CellAxis& x : sheet.crossings) {
+      if (!is_within(x.cell)) elsewhere.push_back(x.cell);
+    }
+    const double floor = std::min(least_, measure_quality(mesh, elsewhere).least);
     const SheetSplit split = split_sheet(mesh, sheet);
     std::vector<CellHandle> region;
+    elsewhere.clear();
     for (std::size_t i = 0; i < split.cells.size(); ++i) {
-      if (std::binary_search(region_.begin(), region_.end(), split.parents[i]))
-        region.push_back(split.cells[i]);
+      (is_within(split.parents[i]) ? region : elsewhere).push_back(split.cells[i]);
     }
+    if (measure_quality(mesh, elsewhere).least < floor * (1 - 1e-9)) return false;
     std::copy_if(region_.begin(), region_.end(), std::back_inserter(region),
                  [&](CellHandle c) { return mesh.is_live(c); });
     std::sort(region.begin(), region.end());
@@ -153,6 +164,7 @@ class RegionRelaxation {
     touched_.insert(touched_.end(), split.cells.begin(), split.cells.end());
     std::sort(touched_.begin(), touched_.end());
     touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
+    return true;
   }
 
   Refusal move(int iterations, SurfaceTreatment treatment, const Shares& shares = {1, 1}) {

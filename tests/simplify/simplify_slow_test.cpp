@@ -73,19 +73,26 @@ TEST(SimplifySlow, BoldTrialsTakesLayersUnderTheSurface) {
   const auto reports = simplify_by_each<2>({without, with});
   EXPECT_LT(reports[1].after.components, reports[0].after.components);
   EXPECT_GE(reports[1].after.min_scaled_jacobian, with.min_scaled_jacobian);
-  // No step goes below the floor, nor below what it found if that is less.
-  constexpr double floor = 0.4;
-  with.min_scaled_jacobian = floor;
-  double before = 0;
-  int steps = 0;
-  with.observer = [&](const SimplifyProgress& p) {
-    EXPECT_GE(p.min_scaled_jacobian, std::min(floor, before) * (1 - 1e-9)) << p.step;
-    before = p.min_scaled_jacobian;
-    ++steps;
-  };
-  const SimplifyReport held = simplify_well(make_solid("stepped-shaft", 20), with);
-  EXPECT_GT(steps, held.collapses());
-  EXPECT_GE(held.after.min_scaled_jacobian, std::min(floor, held.before.min_scaled_jacobian));
+}
+
+// Nor below what it found if that is less. The sheets that bold trials split reach far from the
+// collapse: of 14 voxels one has a twisted hexahedron there, whose halves are worse than it is.
+TEST(SimplifySlow, NoStepGoesBelowTheFloor) {
+  for (const auto& [resolution, floor] : {std::pair{20, 0.4}, std::pair{14, 0.1}}) {
+    SCOPED_TRACE(resolution);
+    SimplifyOptions options;
+    options.min_scaled_jacobian = floor;
+    double before = 0;
+    int steps = 0;
+    options.observer = [&, floor = floor](const SimplifyProgress& p) {
+      EXPECT_GE(p.min_scaled_jacobian, std::min(floor, before) * (1 - 1e-9)) << p.step;
+      before = p.min_scaled_jacobian;
+      ++steps;
+    };
+    const SimplifyReport held = simplify_well(make_solid("stepped-shaft", resolution), options);
+    EXPECT_GT(steps, held.collapses());
+    EXPECT_GE(held.after.min_scaled_jacobian, std::min(floor, held.before.min_scaled_jacobian));
+  }
 }
 
 TEST(SimplifySlow, ChordsOfWideDeviationAreLeftToBoldTrials) {
