@@ -114,8 +114,8 @@ bool PartialMove::mark_far_sides() {
 /// Looks between the samples, which only those that come near the limit need.
 /// \return whether a place there is too far; the first that is found is marked
 bool PartialMove::mark_far_between() {
-  constexpr double kSafe = 0.9, kSuspect = 0.6;
-  if (moved_distance_ <= kSafe * limits_.between) return false;
+  constexpr double kSuspect = 0.6;
+  if (moved_distance_ <= kSuspect * limits_.between) return false;
   if (distance_.change_is_within(limits_.between, kSuspect)) return false;
   Eigen::Index nearest;
   (points_.colwise() - *distance_.too_far_at()).colwise().squaredNorm().minCoeff(&nearest);

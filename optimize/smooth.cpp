@@ -58,14 +58,9 @@ class Smoother {
         options_(options),
         distance_(mesh, reference, samples_for(limit)),
         cells_(all_cells(mesh)),
-        limit_(limit) {
-    const Measure before = measure(scaled_jacobians(mesh_, cells_));
-    report_.initial_min_scaled_jacobian = report_.min_scaled_jacobian = before.least;
-    report_.initial_mean_scaled_jacobian = report_.mean_scaled_jacobian = mean_ = before.mean;
-  }
+        limit_(limit) {}
 
-  bool run_cycle();
-  const SmoothingReport& report() const { return report_; }  ///< but for the distances
+  SmoothingReport run();
 
  private:
   bool attempt(const std::vector<CellHandle>& cells, const ParametrizationOptions& options,
@@ -90,7 +85,7 @@ class Smoother {
 };
 
 /// \return the mean over the mesh, if the least or the mean scaled Jacobian of the cells gains enough,
-/// the least does not fall, and the mean over the mesh stays above what it was when the cycle began
+/// the least does not fall, and the mean over the mesh stays above what it was at the start
 std::optional<double> Smoother::mean_if_gained(const Measure& before, const Measure& now,
                                                std::size_t n_cells, const Aim& aim) const {
   const double mesh_mean = mean_ + (now.mean - before.mean) * static_cast<double>(n_cells) /
@@ -98,7 +93,7 @@ std::optional<double> Smoother::mean_if_gained(const Measure& before, const Meas
   const bool enough =
       now.least >= before.least + aim.least_gain || now.mean >= before.mean + aim.mean_gain;
   const bool falls = now.least < before.least ||
-                     (now.mean < before.mean && mesh_mean < report_.mean_scaled_jacobian);
+                     (now.mean < before.mean && mesh_mean < report_.initial_mean_scaled_jacobian);
   if (!enough || falls) return std::nullopt;
   return mesh_mean;
 }
@@ -220,39 +215,55 @@ void Smoother::relax_worst_cells() {
   }
 }
 
-/// \return whether another cycle may gain as well
-bool Smoother::run_cycle() {
+SmoothingReport Smoother::run() {
+  const Measure before = measure(scaled_jacobians(mesh_, cells_));
+  report_.initial_min_scaled_jacobian = before.least;
+  report_.initial_mean_scaled_jacobian = mean_ = before.mean;
   relax_for_least();
   relax_worst_cells();
   relax_for_mean();
   const Measure now = measure(scaled_jacobians(mesh_, cells_));
-  const bool gained = now.least >= report_.min_scaled_jacobian + kLeastGain ||
-                      now.mean >= report_.mean_scaled_jacobian + kMeanGain;
   report_.min_scaled_jacobian = now.least;
   report_.mean_scaled_jacobian = now.mean;
-  return gained;
+  return report_;
 }
 
-/// The passes do not look quite as closely as the last word, which is taken after each cycle.
-/// \param limit  of the ratio that the passes keep
-/// \param last_limit  of the ratio in the end
-/// \return nothing, with the mesh as it was, if already the first cycle ended over the limit
-std::optional<SmoothingReport> run_cycles(HexMesh& mesh, const ReferenceSurface& reference,
-                                          const SmoothingOptions& options, double limit,
-                                          double last_limit) {
-  Smoother smoother(mesh, reference, options, limit * reference.bounding_box_diagonal());
-  std::optional<SmoothingReport> kept;
-  bool goes_on = true;
-  for (int i = 0; i < options.cycles && goes_on && !options.stop.stop_requested(); ++i) {
-    Transaction cycle(mesh);
-    goes_on = smoother.run_cycle();
-    const double ratio = hausdorff_distance(mesh, reference).ratio();
-    if (ratio > last_limit) break;
-    cycle.commit();
-    kept = smoother.report();
-    kept->hausdorff_rel = ratio;
+/// One cycle. \param before  Hausdorff ratio at the start of the first, or what it is not over
+/// \return nothing, with the mesh as it was, if all that it tried ended over the limit
+std::optional<SmoothingReport> run_cycle(HexMesh& mesh, const ReferenceSurface& reference,
+                                         const SmoothingOptions& options, double before) {
+  // The passes do not look quite as closely as the last word; where that is
+  // over the limit, they start again with a little less room.
+  for (double room : {1.0, 0.9, 0.6}) {
+    if (room < 1 && options.initial_hausdorff_rel)
+      before = std::min(before, hausdorff_distance(mesh, reference).ratio());
+    Transaction attempt(mesh);
+    const double limit = std::max(before, room * options.hausdorff_limit_rel);
+    SmoothingReport report =
+        Smoother(mesh, reference, options, limit * reference.bounding_box_diagonal()).run();
+    report.initial_hausdorff_rel = before;
+    report.hausdorff_rel = hausdorff_distance(mesh, reference).ratio();
+    if (report.hausdorff_rel > std::max(before, options.hausdorff_limit_rel)) continue;
+    attempt.commit();
+    return report;
   }
-  return kept;
+  return std::nullopt;
+}
+
+bool gained(const SmoothingReport& r) {
+  return r.min_scaled_jacobian >= r.initial_min_scaled_jacobian + kLeastGain ||
+         r.mean_scaled_jacobian >= r.initial_mean_scaled_jacobian + kMeanGain;
+}
+
+/// Of two cycles, one after the other.
+SmoothingReport both(const SmoothingReport& first, const SmoothingReport& then) {
+  SmoothingReport r = then;
+  r.initial_min_scaled_jacobian = first.initial_min_scaled_jacobian;
+  r.initial_mean_scaled_jacobian = first.initial_mean_scaled_jacobian;
+  r.accepted_global += first.accepted_global;
+  r.accepted_local += first.accepted_local;
+  r.trials += first.trials;
+  return r;
 }
 
 }  // namespace
@@ -282,24 +293,21 @@ SmoothingReport smooth(HexMesh& mesh, const ReferenceSurface& reference,
   validate(options);
   if (mesh.n_cells() == 0) return {};
   const auto measured = [&] { return hausdorff_distance(mesh, reference).ratio(); };
-  double before = options.initial_hausdorff_rel ? *options.initial_hausdorff_rel : measured();
-  // Where the passes end over the limit, they start again with a little less room.
-  for (double room : {1.0, 0.9, 0.6}) {
-    if (options.stop.stop_requested()) break;
-    if (room < 1 && options.initial_hausdorff_rel) before = std::min(before, measured());
-    auto report =
-        run_cycles(mesh, reference, options, std::max(before, room * options.hausdorff_limit_rel),
-                   std::max(before, options.hausdorff_limit_rel));
-    if (!report) continue;
-    report->initial_hausdorff_rel = before;
-    return *report;
-  }
+  const double before = options.initial_hausdorff_rel ? *options.initial_hausdorff_rel : measured();
   const Measure start = measure(scaled_jacobians(mesh, all_cells(mesh)));
   SmoothingReport report;
   report.initial_min_scaled_jacobian = report.min_scaled_jacobian = start.least;
   report.initial_mean_scaled_jacobian = report.mean_scaled_jacobian = start.mean;
-  report.initial_hausdorff_rel = before;
-  report.hausdorff_rel = options.initial_hausdorff_rel ? measured() : before;
+  report.initial_hausdorff_rel = report.hausdorff_rel = before;
+  bool any = false;
+  for (int cycle = 0; cycle < options.cycles && !options.stop.stop_requested(); ++cycle) {
+    const auto next = run_cycle(mesh, reference, options, before);
+    if (!next) break;
+    any = true;
+    report = both(report, *next);
+    if (!gained(*next)) break;
+  }
+  if (!any && options.initial_hausdorff_rel) report.hausdorff_rel = measured();
   return report;
 }
 
