@@ -18,7 +18,7 @@ class PartialMove {
         limits_(limits),
         worth_keeping_(worth_keeping),
         side_distances_before_(side_distances()),
-        scaled_jacobians_(scaled_jacobians(before.points, before.hexes)),
+        scaled_jacobians_before_(scaled_jacobians(before.points, before.hexes)),
         goal_(before.points),
         points_(before.points),
         fraction_(before.n_free, 1),
@@ -49,7 +49,8 @@ class PartialMove {
   const WorthKeeping& worth_keeping_;
   double moved_distance_ = 0;                  // of what has moved, model units
   std::vector<double> side_distances_before_;  // model units
-  std::vector<double> scaled_jacobians_;       // before the move
+  std::vector<double> scaled_jacobians_before_;
+  std::vector<double> scaled_jacobians_;  // at the last look at the hexahedra
   Eigen::Matrix3Xd goal_, points_;
   std::vector<double> fraction_;  // of the way to the goal
   std::vector<char> marked_;      // vertices to take back
@@ -77,10 +78,11 @@ void PartialMove::place() {
 }
 
 bool PartialMove::mark_bad_hexes() {
-  const std::vector<double> now = scaled_jacobians(points_, before_.hexes);
+  scaled_jacobians_ = scaled_jacobians(points_, before_.hexes);
   bool any = false;
-  for (std::size_t h = 0; h < now.size(); ++h) {
-    if (now[h] >= std::min(limits_.least_scaled_jacobian, scaled_jacobians_[h])) continue;
+  for (std::size_t h = 0; h < scaled_jacobians_.size(); ++h) {
+    const double floor = std::min(limits_.least_scaled_jacobian, scaled_jacobians_before_[h]);
+    if (scaled_jacobians_[h] >= floor) continue;
     for (int v : before_.hexes[h]) marked_[v] = 1;
     any = true;
   }
@@ -172,7 +174,7 @@ bool PartialMove::run() {
     std::fill(marked_.begin(), marked_.end(), 0);
     if (mark_far_sides()) {
       take_back_round_marks(at_samples++);
-    } else if (worth_keeping_ && !worth_keeping_(scaled_jacobians(points_, before_.hexes))) {
+    } else if (worth_keeping_ && !worth_keeping_(scaled_jacobians_)) {
       break;  // what lies between the samples costs most, and takes away more
     } else if (mark_far_between()) {
       take_back_round_marks(kHalvings);  // all the way at once: each look costs much

@@ -56,7 +56,7 @@ struct SimplifyOptions {
   /// > 0, attempts at a time; a single one uses two, for the two directions of distance checks at
   /// full sampling
   int threads = 1;
-  bool smooth = true;  ///< global smoothing at the end
+  bool smooth = true;  ///< global smoothing at the end, from which the loop may go on
   int smoothing_trials =
       400;  ///< >= 0, passes over the neighbourhoods of the worst cells then, in each of two cycles
   double give_up_factor = 1.5;       ///< >= 1; half relaxed and so many limits away, a trial ends

@@ -74,8 +74,7 @@ Run::Run(HexMesh& mesh, const ReferenceSurface& reference, const SimplifyOptions
   }
   report_.before = measure_mesh(mesh);
   aim_at(full_count());
-  verified_ = mesh;
-  verified_components_ = report_.before.components;
+  take_as_verified();
 }
 
 SimplifyReport Run::run() {
@@ -119,7 +118,7 @@ void Run::coarsen_input() {
     replace_mesh(verified_);
     return;
   }
-  replace_mesh(mesh_);
+  compact();
   step_ += gone;
   report_.coarsened = gone;
   made_room_ = true;
@@ -175,9 +174,14 @@ void Run::go_on_from_relaxed() {
   relaxing.cycles = relaxing.mean_rounds = 1;
   relaxing.local_trials = 0;
   smooth_all(relaxing);
-  replace_mesh(mesh_);
   made_room_ = true;
+  loop_from_smoothed();
+}
+
+void Run::loop_from_smoothed() {
+  compact();
   observe({.what = StepKind::smoothing});
+  record();
   loop_afresh();
 }
 
@@ -186,22 +190,19 @@ void Run::go_on_from_relaxed() {
 bool Run::improve() {
   constexpr double kWorthMore = 0.95;  // of the components are left at most
   const Outcome before = outcome();
+  const HexMesh smoothed = mesh_;
   const int collapses = report_.collapses();
-  replace_mesh(mesh_);
-  verified_ = mesh_;
-  verified_components_ = before.components;
-  observe({.what = StepKind::smoothing});
-  record();
-  loop_afresh();
+  take_as_verified();
+  loop_from_smoothed();
   if (report_.collapses() > collapses) finish();
   if (const Outcome now = outcome(); now.is_better_than(before))
     return now.components <= kWorthMore * before.components;
-  if (!is_smoothed()) return_to(before);
+  if (!is_smoothed()) return_to(smoothed, before);
   return false;
 }
 
 Run::Outcome Run::outcome() const {
-  return {mesh_, tally(), static_cast<int>(bc_.components.size()), min_scaled_jacobian(mesh_),
+  return {tally(), static_cast<int>(bc_.components.size()), min_scaled_jacobian(mesh_),
           report_.hausdorff_ratio};
 }
 
@@ -212,8 +213,8 @@ bool Run::Outcome::is_better_than(const Outcome& other) const {
          components_left <= min_scaled_jacobian / other.min_scaled_jacobian;
 }
 
-void Run::return_to(const Outcome& before) {
-  replace_mesh(before.mesh);
+void Run::return_to(const HexMesh& mesh, const Outcome& before) {
+  replace_mesh(mesh);
   report_.hausdorff_ratio = before.hausdorff_ratio;
   report_.refinement_failed += report_.refined - before.tally.refined;
   count_as_refused(before.tally, Refusal::quality);

@@ -60,9 +60,8 @@ class Run {
     return {step_, report_.refined, report_.sheets.accepted, report_.chords.accepted,
             report_.peels.accepted};
   }
-  /// A smoothed mesh, and how the run came there.
+  /// Of a smoothed mesh.
   struct Outcome {
-    HexMesh mesh;
     Tally tally;
     int components;
     double min_scaled_jacobian, hausdorff_ratio;
@@ -73,6 +72,7 @@ class Run {
   void coarsen_input();
   void loop();
   void loop_afresh();
+  void loop_from_smoothed();
   void collapse_while_possible(std::span<Manner* const> in_turn);
   void finish();
   void go_on_from_relaxed();
@@ -88,7 +88,7 @@ class Run {
   void aim_at(double cells);
   bool is_short_of_cells(double share) const;
   Outcome outcome() const;
-  void return_to(const Outcome& before);
+  void return_to(const HexMesh& mesh, const Outcome& before);
   bool should_stop();   // for good or for lack of progress
   bool is_cut_short();  // asked to stop, or out of time
 
@@ -122,6 +122,7 @@ class Run {
   void keep_checkpoint(bool now = false);
   bool may_be_written() const;
   void verify();
+  void take_as_verified();
   void go_back();
   bool ends_well();
   void end_with_what_may_be_written();

@@ -60,10 +60,7 @@ void Run::go_on_from(const Checkpoint& from) {
   report_.refinement_failed = s.refinement_failed;
   earlier_seconds_ = s.seconds;
   earlier_profile_ = s.profile;
-  if (report_.collapses() > 0 && may_be_written()) {
-    verified_ = mesh_;
-    verified_components_ = static_cast<int>(bc_.components.size());
-  }
+  if (report_.collapses() > 0 && may_be_written()) take_as_verified();
 }
 
 RunState Run::state() {
@@ -148,12 +145,16 @@ bool Run::may_be_written() const {
 // Keeps a copy that is within the limit at full sampling.
 void Run::verify() {
   const auto verifying = timer(Stage::verification);
-  verified_components_ = static_cast<int>(bc_.components.size());
   if (may_be_written()) {
-    verified_ = mesh_;
+    take_as_verified();
   } else {
     go_back();
   }
+}
+
+void Run::take_as_verified() {
+  verified_ = mesh_;
+  verified_components_ = static_cast<int>(bc_.components.size());
 }
 
 // To the last mesh that may be written; what comes keeps more distance from the limit.
@@ -181,6 +182,7 @@ void Run::end_with_what_may_be_written() {
 
 // Handles change: what is known by handle is made anew.
 void Run::replace_mesh(const HexMesh& mesh) {
+  const auto extracting = timer(Stage::base_complex);
   if (&mesh != &mesh_) mesh_ = mesh;
   mesh_.collect_garbage();
   bc_ = extract_base_complex(mesh_);
@@ -194,14 +196,10 @@ void Run::forget_failures() {
   not_refinable_.clear();
 }
 
-void Run::compact() {
-  const auto extracting = timer(Stage::base_complex);
-  replace_mesh(mesh_);
-}
+void Run::compact() { replace_mesh(mesh_); }
 
 // Splits, layers taken out and relaxing that made room for no collapse were for nothing.
 void Run::give_back_input() {
-  const auto extracting = timer(Stage::base_complex);
   replace_mesh(verified_);
   step_ = 0;
   smoothed_step_ = -1;
