@@ -2,7 +2,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <span>
 
 #include <fmt/format.h>
 
@@ -25,6 +24,20 @@ double length(const HexMesh& mesh, const BaseComplex& bc, const BaseEdge& e) {
   return sum;
 }
 
+// By axis: the pairs of a component's edges that a collapse along it makes one.
+constexpr auto kAcross = [] {
+  std::array<std::array<std::array<int, 2>, 4>, 3> pairs{};
+  for (int axis = 0; axis < 3; ++axis) {
+    int n = 0;
+    for (int e = 0; e < kHexEdges; ++e) {
+      const auto& [from, to] = kEdgeCorners[e];
+      if (edge_axis(e) == axis || kCornerCoords[from][axis] == 1) continue;
+      pairs[axis][n++] = {e, kEdgeBetween[kCornerAcross[from][axis]][kCornerAcross[to][axis]]};
+    }
+  }
+  return pairs;
+}();
+
 // The base edges of F_L and F_R, in groups that would become one. Scratch is kept from sheet to
 // sheet.
 class SideGroups {
@@ -33,32 +46,49 @@ class SideGroups {
       : bc_(bc),
         sets_(static_cast<int>(bc.edges.size())),
         stamp_(bc.edges.size(), -1),
-        surviving_(bc.edges.size(), 0) {}
+        surviving_(bc.edges.size(), 0),
+        groups_(bc.edges.size()) {}
 
   /// Sum over the groups of T(K_max - K_new), Eq. 7.
   double gain(const Sheet& sheet) {
     collect(sheet);
-    std::vector<std::pair<int, int>> by_group;
-    for (int e : members_) by_group.emplace_back(sets_.find(e), e);
-    std::sort(by_group.begin(), by_group.end());
-    double sum = 0;
-    for (std::size_t begin = 0, end = 0; begin < by_group.size(); begin = end) {
-      while (end < by_group.size() && by_group[end].first == by_group[begin].first) ++end;
-      if (end - begin > 1) sum += group_gain({by_group.data() + begin, end - begin});
+    for (int e : members_) groups_[sets_.find(e)].add(bc_.edges[e], surviving_[e]);
+    double sum = 0;  // of halves: the same in any order
+    for (int e : members_) {
+      sum += groups_[e].gain();
+      groups_[e] = {};
+      sets_.release(e);
     }
-    for (int e : members_) sets_.release(e);
     return sum;
   }
 
  private:
+  // At its lowest edge; those at the others are empty.
+  struct Group {
+    int n = 0, valence = 0, worst = 0;
+    bool boundary = false;
+    void add(const BaseEdge& e, int surviving) {
+      ++n;
+      valence += surviving;
+      boundary |= e.boundary;
+      worst = std::max(worst, e.valence_error());
+    }
+    double gain() const {
+      if (n < 2) return 0;
+      const int k = worst - std::abs(valence - (boundary ? 2 : 4));
+      return k < 0 ? 0.5 * k : k == 0 ? 1.0 : k;
+    }
+  };
+
   void collect(const Sheet& sheet) {
     members_.clear();
     ++now_;
     for (std::size_t i = 0; i < sheet.crossings.size(); ++i) {
-      const int c = sheet.crossings[i].component;
-      join_sides(sheet.crossings[i]);
+      const auto [c, axis] = sheet.crossings[i];
+      const auto& edges = bc_.components[c].edges;
+      for (const auto& [e, twin] : kAcross[axis]) sets_.join(touch(edges[e]), touch(edges[twin]));
       if (i > 0 && sheet.crossings[i - 1].component == c) continue;
-      for (int e : bc_.components[c].edges) --surviving_[touch(e)];
+      for (int e : edges) --surviving_[touch(e)];
     }
   }
 
@@ -71,32 +101,10 @@ class SideGroups {
     return e;
   }
 
-  void join_sides(const Crossing& x) {
-    const auto& edges = bc_.components[x.component].edges;
-    for (int e = 0; e < 12; ++e) {
-      const auto& [from, to] = kEdgeCorners[e];
-      if (edge_axis(e) == x.axis || kCornerCoords[from][x.axis] == 1) continue;
-      const int twin = kEdgeBetween[kCornerAcross[from][x.axis]][kCornerAcross[to][x.axis]];
-      sets_.join(touch(edges[e]), touch(edges[twin]));
-    }
-  }
-
-  double group_gain(std::span<const std::pair<int, int>> group) const {
-    int valence = 0, worst = 0;
-    bool boundary = false;
-    for (const auto& [root, id] : group) {
-      const BaseEdge& e = bc_.edges[id];
-      valence += surviving_[id];
-      boundary |= e.boundary;
-      worst = std::max(worst, e.valence_error());
-    }
-    const int k = worst - std::abs(valence - (boundary ? 2 : 4));
-    return k < 0 ? 0.5 * k : k == 0 ? 1.0 : k;
-  }
-
   const BaseComplex& bc_;
   DisjointSets sets_;
   std::vector<int> stamp_, surviving_, members_;
+  std::vector<Group> groups_;
   int now_ = -1;
 };
 
