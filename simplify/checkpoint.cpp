@@ -86,6 +86,7 @@ Json to_json(const RunState& s) {
           {"sheets", to_json(s.sheets)},
           {"chords", to_json(s.chords)},
           {"peels", to_json(s.peels)},
+          {"pillows", to_json(s.pillows)},
           {"coarsened", s.coarsened},
           {"refined", s.refined},
           {"refinement_failed", s.refinement_failed},
@@ -103,6 +104,7 @@ RunState run_state(const Json& j) {
     s.sheets = trial_counts(j.at("sheets"));
     s.chords = trial_counts(j.at("chords"));
     s.peels = trial_counts(j.at("peels"));
+    s.pillows = trial_counts(j.at("pillows"));
     s.coarsened = j.at("coarsened").get<int>();
     s.refined = j.at("refined").get<int>();
     s.refinement_failed = j.at("refinement_failed").get<int>();
@@ -139,6 +141,8 @@ Json lasting_options(const SimplifyOptions& o) {
           {"chords", o.chords},
           {"coarsen", o.coarsen},
           {"peels", o.peels},
+          {"pillows", o.pillows},
+          {"compare", o.compare},
           {"hausdorff_limit_rel", o.hausdorff_limit_rel},
           {"min_scaled_jacobian", o.min_scaled_jacobian},
           {"mean_scaled_jacobian", o.mean_scaled_jacobian},

@@ -30,7 +30,7 @@ struct RunState {
   double distance_share =
       1;                    ///< (0, 1] of the Hausdorff limit, which the loop keeps at its sampling
   double target_cells = 1;  ///< > 0, the count of cells that the loop keeps near
-  TrialCounts sheets, chords, peels;
+  TrialCounts sheets, chords, peels, pillows;
   int coarsened = 0, refined = 0, refinement_failed = 0;
   double seconds = 0;
   Profile profile;

@@ -33,6 +33,7 @@ void validate(const SimplifyOptions& o) {
   expect(o.threads > 0, "threads", o.threads, "> 0");
   expect(o.attempts > 0, "attempts", o.attempts, "> 0");
   expect(o.attempts == 1 || !o.checkpoint, "attempts", o.attempts, "1 where checkpoints are kept");
+  expect(o.compare > 0, "compare", o.compare, "> 0");
   expect(o.splits_per_trial >= 0, "splits_per_trial", o.splits_per_trial, ">= 0");
   expect(o.bold.max_interior_valence > 2, "bold.max_interior_valence", o.bold.max_interior_valence,
          "> 2");

@@ -43,6 +43,8 @@ struct SimplifyOptions {
       true;  ///< first take layers out of sheets that have several and do without (coarsen.h);
              ///< where that made it short of cells, the loop goes on when they are back
   bool peels = true;  ///< take sheets off single faces where no sheet or chord can be collapsed
+  bool pillows =
+      true;  ///< then collapse sheets with pillows beside what is in their way (pillow.h)
 
   double hausdorff_limit_rel = 0.01;  ///< (0, 1], of the input's bounding-box diagonal, both ways
   double min_scaled_jacobian = 0.1;   ///< [0, 1); a step may not leave its region below both this
@@ -59,6 +61,9 @@ struct SimplifyOptions {
   bool smooth = true;  ///< global smoothing at the end, from which the loop may go on
   int smoothing_trials =
       400;  ///< >= 0, passes over the neighbourhoods of the worst cells then, in each of two cycles
+  /// > 0, candidates whose trials succeed and of which the one goes first that is worth most: components
+  /// gone for the distance and the quality spent
+  int compare = 1;
   double give_up_factor = 1.5;       ///< >= 1; half relaxed and so many limits away, a trial ends
   double merged_give_up_factor = 2;  ///< >= 1; the same before anything has moved
   /// >= 0, sheets that a collapse may split where it leaves the surface too far away, two a layer and

@@ -183,6 +183,22 @@ std::vector<PredictedEdge> predict_edges(const HexMesh& mesh, const SingularityG
   return edges;
 }
 
+std::vector<int> groups_out_of_limits(const HexMesh& mesh, const SingularityGraph& graph,
+                                      const CollapsePlan& plan, const ValenceLimits& limits) {
+  const Merging merging(mesh, plan);
+  std::vector<int> groups;
+  for_each_predicted(mesh, graph, merging, [&](const PredictedEdge& e) {
+    if (within(e, limits)) return true;
+    for (VertexHandle v : {e.a, e.b}) {
+      if (merging.group_of[v.idx] >= 0) groups.push_back(merging.group_of[v.idx]);
+    }
+    return true;
+  });
+  std::sort(groups.begin(), groups.end());
+  groups.erase(std::unique(groups.begin(), groups.end()), groups.end());
+  return groups;
+}
+
 Refusal check_plan(const HexMesh& mesh, const SingularityGraph& graph, const CollapsePlan& plan,
                    const ValenceLimits& limits) {
   if (plan.removed.empty() || static_cast<int>(plan.removed.size()) == mesh.n_cells()) {

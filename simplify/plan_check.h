@@ -42,6 +42,10 @@ struct ValenceLimits {
   double max_angle_deg = 140;
 };
 
+/// The groups of a plan at whose edges the limits on valence would not hold, ascending.
+std::vector<int> groups_out_of_limits(const HexMesh& mesh, const SingularityGraph& graph,
+                                      const CollapsePlan& plan, const ValenceLimits& limits);
+
 /// What can be said against a plan without moving anything; Refusal::none is no promise.
 Refusal check_plan(const HexMesh& mesh, const SingularityGraph& graph, const CollapsePlan& plan,
                    const ValenceLimits& limits = {});

@@ -16,6 +16,7 @@ enum class StepKind {
   sheet,       ///< a sheet was collapsed
   chord,       ///< a chord was collapsed
   peel,        ///< a sheet was taken off a face of the surface
+  pillow,      ///< a sheet was collapsed with a pillow beside what was in its way
   coarsening,  ///< layers were taken out of sheets, before the first collapse
   refinement,  ///< a sheet was split
   relief,      ///< the place farthest from the surface was relaxed
@@ -23,15 +24,17 @@ enum class StepKind {
 };
 std::string_view name(StepKind kind);
 constexpr bool is_collapse(StepKind k) {
-  return k == StepKind::sheet || k == StepKind::chord || k == StepKind::peel;
+  return k == StepKind::sheet || k == StepKind::chord || k == StepKind::peel ||
+         k == StepKind::pillow;
 }
 
 /// A change of the mesh that was accepted, and the mesh after it.
 struct SimplifyProgress {
   StepKind what = StepKind::start;
-  std::string_view kind = {};  ///< of a sheet or a peel's sheet: name(SheetKind); of a chord: open
-                               ///< or closed
-  int width = 0;               ///< of a collapse: layers of cells that folded together or went
+  std::string_view kind =
+      {};  ///< of a sheet, also a peel's or one with a pillow: name(SheetKind); of a chord: open
+           ///< or closed
+  int width = 0;  ///< of a collapse: layers of cells that folded together or went
   std::optional<SheetTerms> sheet_terms = {};  ///< of a sheet, before it went
   std::optional<ChordTerms> chord_terms = {};  ///< of a chord, before it went
 

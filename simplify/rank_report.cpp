@@ -76,6 +76,11 @@ nlohmann::ordered_json to_json(const RankedPeel& p) {
           {"cells", p.cells}, {"refusal", name(p.refusal)}};
 }
 
+nlohmann::ordered_json to_json(const RankedPillow& p) {
+  return {{"id", p.id},         {"sheet", p.sheet}, {"kind", name(p.kind)}, {"width", p.width},
+          {"inside", p.inside}, {"added", p.added}, {"gain", p.gain}};
+}
+
 RankedSheet report_sheet(const HexMesh& mesh, const BaseComplex& bc, const CandidateQueues& q,
                          int id, const SimplifyOptions& options) {
   const Sheet& s = q.sheets[id];
@@ -116,6 +121,16 @@ RankedPeel report_peel(const HexMesh& mesh, const BaseComplex& bc, const Peel& p
           check_plan(mesh, bc.graph, plan, options.valence)};
 }
 
+RankedPillow report_pillow(const Sheet& sheet, const PillowedSheet& p, int id) {
+  return {id,
+          p.sheet,
+          sheet.kind,
+          sheet.width,
+          static_cast<int>(p.pillow.inside.size()),
+          p.pillow.added,
+          p.gain};
+}
+
 }  // namespace
 
 RankReport report_ranking(const HexMesh& mesh, const BaseComplex& bc,
@@ -123,7 +138,8 @@ RankReport report_ranking(const HexMesh& mesh, const BaseComplex& bc,
                           Ranking ranking) {
   validate(options.weights);
   const CandidateQueues q = make_queues(mesh, bc, options, ranking);
-  RankReport report{ranking, {}, {}, {}};
+  RankReport report;
+  report.ranking = ranking;
   for (int i = 0; i < static_cast<int>(q.sheets.size()); ++i) {
     report.sheets.push_back(report_sheet(mesh, bc, q, i, options));
   }
@@ -133,6 +149,11 @@ RankReport report_ranking(const HexMesh& mesh, const BaseComplex& bc,
   const std::vector<Peel> peels = extract_peels(bc, q.sheets, on_feature);
   for (int i = 0; i < static_cast<int>(peels.size()); ++i) {
     report.peels.push_back(report_peel(mesh, bc, peels[i], i, options));
+  }
+  HexMesh scratch = mesh;
+  const std::vector<PillowedSheet> pillows = find_pillows(scratch, bc, q.sheets, options.valence);
+  for (int i = 0; i < static_cast<int>(pillows.size()); ++i) {
+    report.pillows.push_back(report_pillow(q.sheets[pillows[i].sheet], pillows[i], i));
   }
   sort_by_cost(report.sheets, ranking);
   sort_by_cost(report.chords, ranking);
@@ -173,7 +194,16 @@ std::string RankReport::table(int max_rows) const {
     s += fmt::format("{:>7} {:>10} {:>6} {:>7}  {:<12}  {}\n", r.id, r.components, r.width, r.cells,
                      name(r.kind), state(r.refusal));
   }
-  return s + rest(peels, max_rows);
+  s += rest(peels, max_rows) +
+       fmt::format("{} pillows that take the way free for a sheet, by gain\n", pillows.size());
+  s += fmt::format("{:>7} {:>7} {:>6} {:>7} {:>7} {:>6}  {}\n", "pillow", "sheet", "gain", "added",
+                   "inside", "layers", "kind");
+  for (int i = 0; i < std::min<int>(max_rows, static_cast<int>(pillows.size())); ++i) {
+    const RankedPillow& r = pillows[i];
+    s += fmt::format("{:>7} {:>7} {:>6} {:>7} {:>7} {:>6}  {}\n", r.id, r.sheet, r.gain, r.added,
+                     r.inside, r.width, name(r.kind));
+  }
+  return s + rest(pillows, max_rows);
 }
 
 nlohmann::ordered_json RankReport::json() const {
@@ -181,9 +211,11 @@ nlohmann::ordered_json RankReport::json() const {
   j["sheets"] = nlohmann::ordered_json::array();
   j["chords"] = nlohmann::ordered_json::array();
   j["peels"] = nlohmann::ordered_json::array();
+  j["pillows"] = nlohmann::ordered_json::array();
   for (const RankedSheet& s : sheets) j["sheets"].push_back(to_json(s));
   for (const RankedChord& c : chords) j["chords"].push_back(to_json(c));
   for (const RankedPeel& p : peels) j["peels"].push_back(to_json(p));
+  for (const RankedPillow& p : pillows) j["pillows"].push_back(to_json(p));
   return j;
 }
 

@@ -1,6 +1,6 @@
 /// \file
-/// Every sheet and chord of a mesh with the terms of its ranking, and every peel; and why it would not
-/// be tried.
+/// Every sheet and chord of a mesh with the terms of its ranking, every peel, and every pillow that a
+/// sheet could be collapsed with; and why the others would not be tried.
 ///
 ///     const auto on_feature = base_edges_on_features(bc, feature_of(surface, mesh));
 ///     const RankReport report = report_ranking(mesh, bc, on_feature, options);
@@ -14,6 +14,7 @@
 
 #include "simplify/candidates.h"
 #include "simplify/peel.h"
+#include "simplify/pillow.h"
 
 namespace hexweft {
 
@@ -43,13 +44,25 @@ struct RankedPeel {
   Refusal refusal = Refusal::none;
 };
 
+struct RankedPillow {
+  int id = 0;                        ///< place in find_pillows()
+  int sheet = 0;                     ///< that would go
+  SheetKind kind = SheetKind::open;  ///< of it
+  int width = 0;
+  int inside = 0;  ///< components that the pillow would lie round
+  int added = 0;   ///< components of it
+  int gain = 0;    ///< components that would go more than come
+};
+
 /// Those that pass the filters first, each kind in the order of the queues; then the others,
-/// likewise in order of their costs. Peels have no cost: those of the most components come first.
+/// likewise in order of their costs. Peels have no cost: those of the most components come first. Pillows come in order of
+/// what they gain; none is refused.
 struct RankReport {
   Ranking ranking = Ranking::weighted;
   std::vector<RankedSheet> sheets;
   std::vector<RankedChord> chords;
   std::vector<RankedPeel> peels;
+  std::vector<RankedPillow> pillows;
 
   std::string table(int max_rows) const;  ///< for people, at most so many of each kind
   nlohmann::ordered_json json() const;

@@ -21,7 +21,7 @@ enum class Refusal {
   vanishing,        ///< nothing, or a whole part, would be left of it
   // decided from the mesh after the edit
   topology,   ///< not a manifold, or genus or parts changed
-  structure,  ///< no fewer components than before, or some no cuboid
+  structure,  ///< no fewer components than before, or some no cuboid; or too many cells
   // decided from the geometry
   inverted,  ///< no parametrization without inverted cells was found
   quality,   ///< scaled Jacobian under the floor

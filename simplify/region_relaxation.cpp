@@ -55,12 +55,12 @@ class RegionRelaxation {
 
   RegionResult run() {
     const Refusal refusal = relax();
-    if (refusal == Refusal::none) return {};
+    if (refusal == Refusal::none) return {.quality = moved_};
     // Where it failed first: what splits have left elsewhere is not the cause.
     RegionResult failed = {
         refusal, refusal == Refusal::hausdorff ? context_.distance.too_far_at() : worst_cell_};
     if (refusal != Refusal::hausdorff || !is_thorough()) return failed;
-    return split_until_near() ? RegionResult{} : failed;
+    return split_until_near() ? RegionResult{.quality = moved_} : failed;
   }
 
  private:
@@ -169,14 +169,10 @@ class RegionRelaxation {
 
   Refusal move(int iterations, SurfaceTreatment treatment, const Shares& shares = {1, 1}) {
     const StageTimer timer(context_.clock, Stage::parametrization);
-    ParametrizationOptions p = options_.parametrization;
+    ParametrizationOptions p = trial_parametrization(options_);
     p.max_iterations = iterations;
     p.min_scaled_jacobian = shares.of_least * least_;
     p.surface.treatment = treatment;
-    // A trial that needs more hardly ever succeeds in the end.
-    constexpr int kUntanglingRounds = 2;
-    p.untangling_rounds = std::min(p.untangling_rounds, kUntanglingRounds);
-    p.untangle_widely = false;
     if (!parametrization_) parametrization_.emplace(context_.mesh, region_, context_.reference);
     const ParametrizationReport report = parametrization_->run(context_.mesh, p);
     moved_ = {report.min_scaled_jacobian, report.mean_scaled_jacobian};
@@ -239,6 +235,14 @@ class RegionRelaxation {
 };
 
 }  // namespace
+
+ParametrizationOptions trial_parametrization(const SimplifyOptions& options) {
+  constexpr int kUntanglingRounds = 2;
+  ParametrizationOptions p = options.parametrization;
+  p.untangling_rounds = std::min(p.untangling_rounds, kUntanglingRounds);
+  p.untangle_widely = false;
+  return p;
+}
 
 // Still more for more layers gave no better results.
 int rings_round(const CollapsePlan& plan, const SimplifyOptions& options) {

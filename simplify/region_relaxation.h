@@ -14,7 +14,11 @@ namespace hexweft {
 struct RegionResult {
   Refusal refusal = Refusal::none;
   std::optional<Eigen::Vector3d> failed_at = {};  ///< if it is due to a single place
+  Quality quality = {};                           ///< of the region, if it succeeded
 };
+
+/// That of the options, with little untangling: a trial that needs more hardly ever succeeds.
+ParametrizationOptions trial_parametrization(const SimplifyOptions& options);
 
 /// How many rings of cells move round what is collapsed.
 int rings_round(const CollapsePlan& plan, const SimplifyOptions& options);

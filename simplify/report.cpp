@@ -121,7 +121,7 @@ TrialCounts trial_counts(const nlohmann::ordered_json& j) {
 
 std::string SimplifyReport::profile_table() const {
   return profile.table() + fates("sheets", sheets) + fates("chords", chords) +
-         fates("peels", peels);
+         fates("peels", peels) + fates("pillows", pillows);
 }
 
 nlohmann::ordered_json SimplifyReport::json() const {
@@ -133,6 +133,7 @@ nlohmann::ordered_json SimplifyReport::json() const {
                               {"sheets", to_json(sheets)},
                               {"chords", to_json(chords)},
                               {"peels", to_json(peels)},
+                              {"pillows", to_json(pillows)},
                               {"coarsened", coarsened},
                               {"refined", refined},
                               {"refinement_failed", refinement_failed},

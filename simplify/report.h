@@ -52,7 +52,7 @@ struct SimplifyReport {
   MeshFigures before, after;
   double hausdorff_ratio = 0;  ///< of the output, at full sampling
   StopReason stopped = StopReason::nothing_left;
-  TrialCounts sheets, chords, peels;
+  TrialCounts sheets, chords, peels, pillows;
   int coarsened = 0;          ///< layers taken out before the first collapse
   int refined = 0;            ///< sheets split
   int refinement_failed = 0;  ///< sheets whose split failed, or was undone since it led nowhere
@@ -61,7 +61,9 @@ struct SimplifyReport {
   int attempt = 0;            ///< that was taken
   std::vector<AttemptFigures> attempts;  ///< that were made, in order; none where one was asked for
 
-  int collapses() const { return sheets.accepted + chords.accepted + peels.accepted; }
+  int collapses() const {
+    return sheets.accepted + chords.accepted + peels.accepted + pillows.accepted;
+  }
   double rate() const {  ///< R
     return before.components > 0 ? 1 - static_cast<double>(after.components) / before.components
                                  : 0;

@@ -129,6 +129,7 @@ TrialResult collapse_and_relax(TrialContext& context, const SingularityGraph& gr
 
   const RegionResult relaxed = relax_region(context, plan, left, old, *result.outlook, options);
   result.refusal = relaxed.refusal;
+  result.quality_spent = old.mean - relaxed.quality.mean;
   if (relaxed.failed_at) result.cause = groups_near(mesh, plan, *relaxed.failed_at);
   return result;
 }
@@ -246,6 +247,22 @@ TrialResult try_collapse_locally(TrialContext& context, const SingularityGraph& 
   Transaction trial(context.mesh);
   TrialResult result = collapse_and_relax(context, graph, plan, options, known);
   if (result.accepted()) commit(context, trial);
+  return result;
+}
+
+TrialResult weigh_collapse(TrialContext& context, const BaseComplex& bc, const CollapsePlan& plan,
+                           const SimplifyOptions& options, CollapseOutcome& outcome,
+                           const KnownFailure& known) {
+  Transaction trial(context.mesh);
+  const double before = context.distance.distance();
+  TrialResult result = collapse_and_relax(context, bc.graph, plan, options, known);
+  if (!result.accepted()) return result;
+  outcome.distance_spent = (context.distance.distance() - before) / context.distance_limit;
+  outcome.quality_spent = result.quality_spent;
+  context.distance.rollback();
+  BaseComplex after;
+  result.refusal = check_structure(context, bc.components.size(), after);
+  outcome.components = static_cast<int>(after.components.size());
   return result;
 }
 

@@ -52,9 +52,17 @@ struct Outlook {
 /// Told of an outlook, what a trial with the same one failed by, or Refusal::none.
 using KnownFailure = std::function<Refusal(const Outlook&)>;
 
+/// What an accepted collapse comes to.
+struct CollapseOutcome {
+  int components = 0;         ///< of the mesh then
+  double distance_spent = 0;  ///< what comes nearer to the limit, limits; negative where it recedes
+  double quality_spent = 0;   ///< mean scaled Jacobian that the cells round it lose
+};
+
 struct TrialResult {
   Refusal refusal = Refusal::none;
   std::optional<Outlook> outlook;  ///< if the trial came so far
+  double quality_spent = 0;  ///< if accepted: mean scaled Jacobian that the cells round it lose
   std::vector<int> cause;    ///< groups of the plan round where a geometric one was found, if known
   BaseComplex base_complex;  ///< of the new mesh if accepted by try_collapse(), else empty
   bool accepted() const { return refusal == Refusal::none; }
@@ -73,6 +81,12 @@ TrialResult try_collapse(TrialContext& context, const BaseComplex& bc, const Col
 TrialResult try_collapse_locally(TrialContext& context, const SingularityGraph& graph,
                                  const CollapsePlan& plan, const SimplifyOptions& options,
                                  const KnownFailure& known = {});
+
+/// The same, and takes the collapse back whatever comes of it, so that it can be compared with others.
+/// \param outcome  set if it is accepted
+TrialResult weigh_collapse(TrialContext& context, const BaseComplex& bc, const CollapsePlan& plan,
+                           const SimplifyOptions& options, CollapseOutcome& outcome,
+                           const KnownFailure& known = {});
 
 /// Whether genus, parts and boundary surfaces are the input's and the base complex is one of cuboids,
 /// fewer than before.

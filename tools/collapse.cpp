@@ -1,9 +1,11 @@
-// hexweft-collapse: collapses one sheet or chord, or takes a sheet off one face of the surface.
+// hexweft-collapse: collapses one sheet, with a pillow if need be, or one chord, or takes a sheet off one
+// face of the surface.
 #include <fmt/format.h>
 
 #include "simplify/candidates.h"
 #include "simplify/feature_targets.h"
 #include "simplify/peel.h"
+#include "simplify/pillowed_collapse.h"
 #include "tools/single_trial.h"
 
 namespace hexweft {
@@ -11,7 +13,7 @@ namespace {
 
 struct Request {
   cli::TrialArguments trial;
-  std::optional<int> sheet, chord, peel;
+  std::optional<int> sheet, chord, peel, pillow;
   std::string diagonal;  // empty: the one that the ranking takes
 };
 
@@ -40,12 +42,13 @@ CollapsePlan plan_chord(const HexMesh& mesh, const BaseComplex& bc, const Reques
 
 // What was asked for, as people and the JSON report call it.
 std::pair<const char*, int> chosen(const Request& r) {
-  if (r.sheet.has_value() + r.chord.has_value() + r.peel.has_value() != 1) {
-    throw InputError("expected one of --sheet, --chord and --peel");
+  if (r.sheet.has_value() + r.chord.has_value() + r.peel.has_value() + r.pillow.has_value() != 1) {
+    throw InputError("expected one of --sheet, --chord, --peel and --pillow");
   }
   if (r.sheet) return {"sheet", *r.sheet};
   if (r.chord) return {"chord", *r.chord};
-  return {"peel", *r.peel};
+  if (r.peel) return {"peel", *r.peel};
+  return {"pillow", *r.pillow};
 }
 
 CollapsePlan plan_of(cli::SingleTrial& trial, const BaseComplex& bc, const Request& request) {
@@ -57,6 +60,16 @@ CollapsePlan plan_of(cli::SingleTrial& trial, const BaseComplex& bc, const Reque
   return plan_peel(mesh, bc, pick(extract_peels(bc, sheets, on_feature), *request.peel, "peel"));
 }
 
+TrialResult carry_out(cli::SingleTrial& trial, const BaseComplex& bc, const Request& request) {
+  const SimplifyOptions& options = request.trial.options;
+  if (!request.pillow)
+    return try_collapse(trial.context(), bc, plan_of(trial, bc, request), options);
+  const std::vector<Sheet> sheets = extract_sheets(bc);
+  const auto pillows = find_pillows(trial.mesh(), bc, sheets, options.valence);
+  const PillowedSheet& chosen = pick(pillows, *request.pillow, "pillow");
+  return try_pillowed_collapse(trial.context(), bc, sheets[chosen.sheet], chosen.pillow, options);
+}
+
 int run(cli::Program& program, const Request& request) {
   const auto [what, id] = chosen(request);
   cli::SingleTrial trial(program, request.trial);
@@ -64,9 +77,8 @@ int run(cli::Program& program, const Request& request) {
   if (bc.irregular > 0) {
     throw InputError(fmt::format("{} regions of the base complex are no cuboids", bc.irregular));
   }
-  const CollapsePlan plan = plan_of(trial, bc, request);
   const auto before = trial.figures();
-  const TrialResult result = try_collapse(trial.context(), bc, plan, request.trial.options);
+  const TrialResult result = carry_out(trial, bc, request);
   if (!result.accepted()) {
     return program.fail(cli::kFailed, fmt::format("{} {} cannot be collapsed: {}", what, id,
                                                   cli::explain(result.refusal)));
@@ -96,6 +108,10 @@ int main(int argc, char** argv) {
   app.add_option("--chord", request.chord, "Id of a chord, likewise");
   app.add_option("--peel", request.peel,
                  "Id of a peel, likewise: what lies of a sheet under one face");
+  app.add_option(
+      "--pillow", request.pillow,
+      "Id of a pillow, as hexweft-rank lists it with its default filters: it takes the way "
+      "free for a sheet");
   app.add_option("--diagonal", request.diagonal,
                  "Diagonal along which the chord folds: first or second (default: the one that "
                  "leaves the smaller valence error)")

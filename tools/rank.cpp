@@ -38,8 +38,9 @@ int main(int argc, char** argv) {
   cli::Program program(
       "hexweft-rank",
       "Lists the sheets and chords of a mesh's base complex in the order in which "
-      "they would be collapsed, with the terms of their ranking, then the peels, and "
-      "says why the others would not be tried.");
+      "they would be collapsed, with the terms of their ranking, then the peels and the "
+      "pillows that take the way free for sheets, and says why the others would not be "
+      "tried.");
   Request request;
   CLI::App& app = program.app();
   program.add_input();

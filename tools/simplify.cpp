@@ -24,7 +24,7 @@ struct Request {
   cli::RankingArguments ranking;
   std::string energy = std::string(name(SimplifyOptions().parametrization.energy));
   std::string features = "auto";
-  bool no_chords = false, no_peels = false;
+  bool no_chords = false, no_peels = false, no_pillows = false;
   std::optional<double> max_seconds, target_rate;
   std::optional<int> target_components;
   std::string log, checkpoint, resume;
@@ -57,11 +57,17 @@ void add_options(CLI::App& app, Request& r) {
          "at a time as there are threads")
       ->check(cli::in_range(1, 1000))
       ->capture_default_str();
+  app.add_option("--compare", o.compare,
+                 "Candidates that succeed to look at before the best of them is taken")
+      ->check(cli::in_range(1, 1000))
+      ->capture_default_str();
   app.add_flag("--no-chords", r.no_chords, "Collapse no chords");
   app.add_flag_callback(
       "--no-coarsening", [&o] { o.coarsen = false; },
       "Keep all layers of sheets that have several, though they could do without some for a while");
   app.add_flag("--no-peels", r.no_peels, "Take no sheets off single faces of the surface");
+  app.add_flag("--no-pillows", r.no_pillows,
+               "Put in no pillows beside what keeps a sheet from being collapsed");
   app.add_flag_callback(
       "--no-careful-trials", [&o] { o.careful.wanted = false; },
       "Do without the careful trials, which go first and ask for better hexahedra");
@@ -112,6 +118,7 @@ void complete_options(Request& request) {
   o.features = cli::parse_features(request.features);
   o.chords = !request.no_chords;
   o.peels = !request.no_peels;
+  o.pillows = !request.no_pillows;
   o.max_seconds = request.max_seconds;
   o.target_rate = request.target_rate;
   o.target_components = request.target_components;

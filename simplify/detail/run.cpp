@@ -144,9 +144,13 @@ void Run::put_layers_back() {
 
 void Run::loop() {
   Manner* const in_turn[] = {&careful_, &ordinary_, &bold_};
+  const auto goes_on = [&] {
+    return (options_.peels && is_stuck() && peel_some(in_turn)) ||
+           (options_.pillows && is_stuck() && pillow_one());
+  };
   do {
     collapse_while_possible(in_turn);
-  } while (options_.peels && is_stuck() && peel_some(in_turn));
+  } while (goes_on());
 }
 
 // What has failed may be tried again at once.

@@ -12,6 +12,7 @@
 #include "simplify/checkpoint.h"
 #include "simplify/failure_memory.h"
 #include "simplify/peel.h"
+#include "simplify/pillow.h"
 #include "simplify/refine.h"
 #include "simplify/trial.h"
 
@@ -53,12 +54,25 @@ class Run {
     SimplifyProgress step;  ///< but for the plan's width
   };
 
+  /// A candidate that may be tried.
+  struct Ready {
+    CandidateKey key;
+    CollapsePlan plan;
+    SimplifyProgress step;
+    int components_gone = 0;  ///< if it was weighed
+    double worth = 0;         ///< the same
+  };
+
   struct Tally {
-    int step, refined, sheets, chords, peels;
+    int step, refined, sheets, chords, peels, pillows;
   };
   Tally tally() const {
-    return {step_, report_.refined, report_.sheets.accepted, report_.chords.accepted,
-            report_.peels.accepted};
+    return {step_,
+            report_.refined,
+            report_.sheets.accepted,
+            report_.chords.accepted,
+            report_.peels.accepted,
+            report_.pillows.accepted};
   }
   /// Of a smoothed mesh.
   struct Outcome {
@@ -95,6 +109,8 @@ class Run {
   // ---- A round of it (run_round.cpp) ----
   bool collapse_some(std::span<Manner* const> in_turn, bool patient);
   bool peel_some(std::span<Manner* const> in_turn);
+  bool pillow_one();
+  bool attempt(const Sheet& sheet, const Pillow& pillow, const SimplifyOptions& options);
   void know_base_complex();
   template <typename Fill>
   bool any_changes_mesh(std::span<Manner* const> in_turn, bool patient, Fill&& fill);
@@ -105,7 +121,11 @@ class Run {
   void collapse_sheets(const CandidateQueues& queues, Turn& turn);
   void collapse_chords(const CandidateQueues& queues, Turn& turn);
   void collapse_peels(const std::vector<Peel>& peels, Turn& turn);
-  bool attempt(const Proposal& proposal, TrialCounts& counts, Turn& turn);
+  std::optional<Ready> prepare(const Proposal& proposal, TrialCounts& counts, Turn& turn);
+  bool weigh(Ready& candidate, int components, TrialCounts& counts, Turn& turn);
+  bool carry_out(const Ready& candidate, TrialCounts& counts, Turn& turn);
+  template <typename Trial>
+  bool attempt(const Ready& candidate, TrialCounts& counts, Turn& turn, Trial&& trial);
   void accept(const SimplifyProgress& step);
   void relieve();
   void end(Round& round, const Tally& before, Manner& manner);

@@ -55,6 +55,7 @@ void Run::go_on_from(const Checkpoint& from) {
   report_.sheets = s.sheets;
   report_.chords = s.chords;
   report_.peels = s.peels;
+  report_.pillows = s.pillows;
   report_.coarsened = s.coarsened;
   report_.refined = s.refined;
   report_.refinement_failed = s.refinement_failed;
@@ -72,6 +73,7 @@ RunState Run::state() {
   s.sheets = report_.sheets;
   s.chords = report_.chords;
   s.peels = report_.peels;
+  s.pillows = report_.pillows;
   s.coarsened = report_.coarsened;
   s.refined = report_.refined;
   s.refinement_failed = report_.refinement_failed;

@@ -6,6 +6,7 @@
 #include "simplify/detail/round.h"
 #include "simplify/detail/run.h"
 #include "simplify/feature_targets.h"
+#include "simplify/pillowed_collapse.h"
 
 namespace hexweft::detail {
 namespace {
@@ -58,6 +59,43 @@ bool Run::peel_some(std::span<Manner* const> in_turn) {
   return changed;
 }
 
+// For where not even peels go: the pillows that gain most, until one succeeds.
+// \return whether the loop should go on
+bool Run::pillow_one() {
+  constexpr int kMostTried = 8;  // hardly any of the others succeeds
+  know_base_complex();
+  // It is a last resort, so any valence will do, but it has to leave good hexahedra.
+  SimplifyOptions options = careful_.options;
+  if (bold_.wanted) options.valence = bold_.options.valence;
+  const std::vector<Sheet> sheets = timed(Stage::ranking, [&] { return extract_sheets(bc_); });
+  const std::vector<PillowedSheet> candidates =
+      timed(Stage::planning, [&] { return find_pillows(mesh_, bc_, sheets, options.valence); });
+  for (int i = 0; i < std::min<int>(kMostTried, std::ssize(candidates)); ++i) {
+    if (is_cut_short()) return false;
+    const PillowedSheet& c = candidates[i];
+    if (attempt(sheets[c.sheet], c.pillow, options)) return true;
+  }
+  return false;
+}
+
+bool Run::attempt(const Sheet& sheet, const Pillow& pillow, const SimplifyOptions& options) {
+  const double begun = seconds();
+  TrialResult result = timed(
+      Stage::trial, [&] { return try_pillowed_collapse(context_, bc_, sheet, pillow, options); });
+  report_.pillows.seconds[static_cast<int>(result.refusal)] += seconds() - begun;
+  if (!result.accepted()) {
+    ++report_.pillows.refused[static_cast<int>(result.refusal)];
+    return false;
+  }
+  ++report_.pillows.accepted;
+  report_.stopped = StopReason::nothing_left;
+  bc_ = std::move(result.base_complex);
+  accept({.what = StepKind::pillow, .kind = name(sheet.kind), .width = sheet.width});
+  refine_while_short();
+  record();
+  return true;
+}
+
 void Run::know_base_complex() {
   if (!bc_of_this_mesh_) {
     bc_ = timed(Stage::base_complex, [&] { return extract_base_complex(mesh_); });
@@ -93,13 +131,27 @@ int Run::most_in_round() const {
   return std::max(kMostInRound, static_cast<int>(bc_.components.size()) / kComponentsPerCollapse);
 }
 
-// Those that the round has room for, in order.
+// Those that the round has room for, in order; of those compared at a time the one worth most.
 template <typename Candidates, typename Propose>
 void Run::collapse_in_order(const Candidates& candidates, int most, TrialCounts& counts, Turn& turn,
                             Propose&& propose) {
-  for (const auto& c : candidates) {
-    if (should_stop()) return;
-    if (!attempt(propose(c), counts, turn)) continue;
+  const bool compares = options_.compare > 1;
+  std::vector<Ready> pool;
+  auto components = static_cast<int>(bc_.components.size());
+  for (auto next = candidates.begin(); !should_stop();) {
+    while (std::ssize(pool) < options_.compare && next != candidates.end()) {
+      if (should_stop()) return;
+      std::optional<Ready> ready = prepare(propose(*next++), counts, turn);
+      if (ready && (!compares || weigh(*ready, components, counts, turn)))
+        pool.push_back(*std::move(ready));
+    }
+    if (pool.empty()) return;
+    const auto best = std::max_element(
+        pool.begin(), pool.end(), [](const Ready& a, const Ready& b) { return a.worth < b.worth; });
+    const Ready candidate = std::move(*best);
+    pool.erase(best);
+    if (!turn.round.is_clear_of(candidate.plan) || !carry_out(candidate, counts, turn)) continue;
+    components -= candidate.components_gone;
     if (std::ssize(turn.round.collapses()) >= most || is_short_of_cells(kShortOfCells)) return;
   }
 }
@@ -144,51 +196,74 @@ void Run::collapse_peels(const std::vector<Peel>& peels, Turn& turn) {
   collapse_in_order(peels, most_in_round(), report_.peels, turn, propose);
 }
 
-bool Run::attempt(const Proposal& proposal, TrialCounts& counts, Turn& turn) {
-  Manner& manner = turn.manner;
-  Round& round = turn.round;
-  if (!round.is_clear_of(proposal.parts)) return false;
+std::optional<Run::Ready> Run::prepare(const Proposal& proposal, TrialCounts& counts, Turn& turn) {
+  FailureMemory& memory = turn.manner.memory;
+  if (!turn.round.is_clear_of(proposal.parts)) return std::nullopt;
   const CandidateKey key = turn.keys.key(proposal.parts);
-  if (manner.memory.should_wait(key, step_, turn.patient)) {
+  if (memory.should_wait(key, step_, turn.patient)) {
     ++counts.waited;
-    return false;
+    return std::nullopt;
   }
-  const CollapsePlan plan = timed(Stage::planning, proposal.plan);
-  if (!round.is_clear_of(plan)) return false;
+  Ready ready = {key, timed(Stage::planning, proposal.plan), proposal.step};
+  if (!turn.round.is_clear_of(ready.plan)) return std::nullopt;
   const bool has_cause = timed(
-      Stage::planning, [&] { return manner.memory.has_cause(mesh_, plan, step_, turn.patient); });
+      Stage::planning, [&] { return memory.has_cause(mesh_, ready.plan, step_, turn.patient); });
   if (has_cause) {
     ++counts.waited;
-    return false;
+    return std::nullopt;
   }
+  ready.step.width = ready.plan.width;
+  return ready;
+}
+
+// Components that go for the distance and the quality spent.
+bool Run::weigh(Ready& candidate, int components, TrialCounts& counts, Turn& turn) {
+  constexpr double kFree = 1;  // what a collapse costs that spends nothing
+  CollapseOutcome outcome;
+  const auto trial = [&](const KnownFailure& known) {
+    return weigh_collapse(context_, bc_, candidate.plan, turn.manner.options, outcome, known);
+  };
+  if (!attempt(candidate, counts, turn, trial)) return false;
+  const double spent =
+      kFree + std::max(0.0, outcome.distance_spent) + std::max(0.0, outcome.quality_spent);
+  candidate.components_gone = components - outcome.components;
+  candidate.worth = candidate.components_gone / spent;
+  return true;
+}
+
+bool Run::carry_out(const Ready& candidate, TrialCounts& counts, Turn& turn) {
+  const auto trial = [&](const KnownFailure& known) {
+    return try_collapse_locally(context_, bc_.graph, candidate.plan, turn.manner.options, known);
+  };
+  if (!attempt(candidate, counts, turn, trial)) return false;
+  ++counts.accepted;
+  turn.round.add(candidate.key, candidate.plan);
+  accept(candidate.step);
+  return true;
+}
+
+template <typename Trial>
+bool Run::attempt(const Ready& candidate, TrialCounts& counts, Turn& turn, Trial&& trial) {
+  Manner& manner = turn.manner;
   const double begun = seconds();
   const TrialResult result = timed(Stage::trial, [&] {
-    return try_collapse_locally(
-        context_, bc_.graph, plan, manner.options,
-        [&](const Outlook& outlook) { return manner.memory.refusal_with(outlook); });
+    return trial([&](const Outlook& outlook) { return manner.memory.refusal_with(outlook); });
   });
   counts.seconds[static_cast<int>(result.refusal)] += seconds() - begun;
-  if (!result.accepted()) {
-    ++counts.refused[static_cast<int>(result.refusal)];
-    const auto remember = [&](Manner& failed) {
-      failed.memory.failed(key, result.refusal, step_);
-      failed.memory.failed_at(mesh_, plan, result.cause, step_);
-      if (result.outlook) failed.memory.failed_with(*result.outlook, result.refusal);
-    };
-    remember(manner);
-    // Careful trials differ from ordinary ones in their floors only; bold ones take away more yet.
-    const bool has_another_chance = &manner == &careful_ && result.refusal == Refusal::quality;
-    if (&manner == &careful_ && !has_another_chance) remember(ordinary_);
-    if (&manner != &bold_ && is_of_shape(result.refusal)) remember(bold_);
-    failed_in_a_row_ += is_geometric(result.refusal) && !has_another_chance && round.empty();
-    return false;
-  }
-  ++counts.accepted;
-  round.add(key, plan);
-  SimplifyProgress step = proposal.step;
-  step.width = plan.width;
-  accept(step);
-  return true;
+  if (result.accepted()) return true;
+  ++counts.refused[static_cast<int>(result.refusal)];
+  const auto remember = [&](Manner& failed) {
+    failed.memory.failed(candidate.key, result.refusal, step_);
+    failed.memory.failed_at(mesh_, candidate.plan, result.cause, step_);
+    if (result.outlook) failed.memory.failed_with(*result.outlook, result.refusal);
+  };
+  remember(manner);
+  // Careful trials differ from ordinary ones in their floors only; bold ones take away more yet.
+  const bool has_another_chance = &manner == &careful_ && result.refusal == Refusal::quality;
+  if (&manner == &careful_ && !has_another_chance) remember(ordinary_);
+  if (&manner != &bold_ && is_of_shape(result.refusal)) remember(bold_);
+  failed_in_a_row_ += is_geometric(result.refusal) && !has_another_chance && turn.round.empty();
+  return false;
 }
 
 void Run::accept(const SimplifyProgress& step) {
@@ -245,6 +320,7 @@ void Run::count_as_refused(const Tally& before, Refusal refusal) {
   refuse(report_.sheets, before.sheets);
   refuse(report_.chords, before.chords);
   refuse(report_.peels, before.peels);
+  refuse(report_.pillows, before.pillows);
 }
 
 }  // namespace hexweft::detail

@@ -86,5 +86,23 @@ TEST(RankReport, ListsWhatCanBeTakenOffFaces) {
                                          testing::HasSubstr("and 4 more")));
 }
 
+TEST(RankReport, ListsPillowsThatTakeTheWayFree) {
+  const RankReport r = report_of(make_blocked_sheet());
+  const auto j = r.json();
+  ASSERT_FALSE(r.pillows.empty());
+  ASSERT_EQ(j["pillows"].size(), r.pillows.size());
+  for (std::size_t i = 0; i < r.pillows.size(); ++i) {
+    const RankedPillow& p = r.pillows[i];
+    EXPECT_EQ(j["pillows"][i]["sheet"], p.sheet);
+    EXPECT_EQ(j["pillows"][i]["gain"], p.gain);
+    const auto sheet = std::find_if(r.sheets.begin(), r.sheets.end(),
+                                    [&](const RankedSheet& s) { return s.id == p.sheet; });
+    ASSERT_NE(sheet, r.sheets.end());
+    EXPECT_EQ(sheet->refusal, Refusal::valence);
+    EXPECT_EQ(sheet->width, p.width);
+  }
+  EXPECT_THAT(r.table(20), testing::HasSubstr(" pillows that take the way free for a sheet"));
+}
+
 }  // namespace
 }  // namespace hexweft

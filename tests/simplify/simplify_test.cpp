@@ -393,6 +393,7 @@ TEST(Simplify, ObserverIsToldOfEveryKindOfStep) {
   EXPECT_EQ(count(StepKind::sheet), report.sheets.accepted);
   EXPECT_EQ(count(StepKind::chord), report.chords.accepted);
   EXPECT_EQ(count(StepKind::peel), report.peels.accepted);
+  EXPECT_EQ(count(StepKind::pillow), report.pillows.accepted);
   EXPECT_EQ(count(StepKind::refinement), report.refined);
   ASSERT_GT(report.sheets.accepted, 0);
   EXPECT_EQ(steps.front().what, StepKind::start);
@@ -449,9 +450,11 @@ TEST(Simplify, ProfileAddsUpToTheRun) {
   EXPECT_NEAR(report.profile.seconds(), report.seconds, 0.01 * report.seconds);
   const Profile& p = report.profile;
   EXPECT_EQ(report.profile[Stage::trial].entered,
-            report.sheets.tried() + report.chords.tried() + report.peels.tried());
+            report.sheets.tried() + report.chords.tried() + report.peels.tried() +
+                report.pillows.tried());
   double trials = 0;
-  for (const TrialCounts* c : {&report.sheets, &report.chords, &report.peels}) {
+  for (const TrialCounts* c :
+       {&report.sheets, &report.chords, &report.peels, &report.pillows}) {
     trials = std::accumulate(c->seconds.begin(), c->seconds.end(), trials);
   }
   const double own = p[Stage::trial].seconds + p[Stage::plan_check].seconds +

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include <gtest/gtest.h>
+
 #include "ovm/edit/insert_sheet.h"
 #include "ovm/generators.h"
 #include "ovm/hex_mesh.h"
@@ -23,6 +25,29 @@ namespace hexweft {
 inline HexMesh make_grid_with_random_sheets(int n, unsigned seed) {
   HexMesh mesh = make_grid({5, 5, 5});
   EXPECT_EQ(insert_random_sheets(mesh, n, seed), n);
+  mesh.collect_garbage();
+  return mesh;
+}
+
+/// Lets a pillow run round the cells of a grid over a rectangle, from its bottom to its top.
+inline void pillow_columns(HexMesh& mesh, int x0, int x1, int y0, int y1) {
+  std::vector<CellHandle> inside;
+  for (CellHandle c : mesh.cells()) {
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+    for (VertexHandle v : mesh.vertices(c)) middle += mesh.point(v) / 8;
+    if (middle.x() > x0 && middle.x() < x1 && middle.y() > y0 && middle.y() < y1)
+      inside.push_back(c);
+  }
+  EXPECT_EQ(insert_sheet(mesh, inside).refusal, InsertRefusal::none);
+}
+
+/// A grid in which the sheet through a column that is one cell wide has curves of valence 3 on both
+/// sides, opposite each other. What the other columns have round them cuts it into many components.
+inline HexMesh make_blocked_sheet() {
+  HexMesh mesh = make_grid({15, 15, 2});
+  pillow_columns(mesh, 7, 8, 6, 9);
+  pillow_columns(mesh, 1, 3, 1, 3);
+  pillow_columns(mesh, 11, 14, 11, 13);
   mesh.collect_garbage();
   return mesh;
 }

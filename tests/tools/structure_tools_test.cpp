@@ -9,6 +9,7 @@
 #include "ovm/property.h"
 #include "ovm/quality.h"
 #include "ovm/topology_check.h"
+#include "tests/simplify/test_meshes.h"
 #include "tests/tools/run_tool.h"
 
 namespace hexweft::test {
@@ -156,6 +157,21 @@ TEST_F(CollapseTool, TakesASheetOffAFaceThatRankLists) {
   EXPECT_EQ(j["before"]["hexahedra"].get<int>() - j["after"]["hexahedra"].get<int>(),
             (*passes)["cells"]);
   EXPECT_LT(j["after"]["components"], j["before"]["components"]);
+}
+
+TEST_F(CollapseTool, TakesASheetOutWithThePillowThatRankLists) {
+  write_hex_mesh(file("in.vtk"), make_blocked_sheet());
+  const Json ranked = Json::parse(run("hexweft-rank in.vtk --json -").out);
+  ASSERT_FALSE(ranked["pillows"].empty());
+  const Json& best = ranked["pillows"][0];
+  EXPECT_EQ(run("hexweft-collapse in.vtk -o out.vtk --sheet " + best["sheet"].dump()).exit_code, 1);
+  const ToolRun result =
+      run("hexweft-collapse in.vtk -o out.vtk --json - --pillow " + best["id"].dump());
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const Json j = Json::parse(result.out);
+  EXPECT_GE(j["before"]["components"].get<int>() - j["after"]["components"].get<int>(),
+            best["gain"].get<int>());
+  EXPECT_EQ(run("hexweft-collapse in.vtk -o out.vtk --pillow 1000").exit_code, 2);
 }
 
 TEST_F(CollapseTool, SaysWhyNotAndWritesNothing) {
