@@ -14,7 +14,7 @@ struct ComponentCut {
   int n_faces = 0;           ///< base faces between inside and outside
 };
 
-/// A minimum cut, the one nearest to `inside` [Ford and Fulkerson 1956]. Cost O(#B_F * cut).
+/// A minimum cut, the one nearest to `inside` [Ford1956]. Cost O(#B_F * cut).
 /// \param inside, outside  components that have to be there; disjoint
 ComponentCut smallest_cut(const BaseComplex& bc, std::span<const int> inside,
                           std::span<const int> outside);

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "ovm/edit/insert_sheet.h"
-#include "simplify/plan_check.h"
+#include "simplify/collapse_plan.h"
 
 namespace hexweft {
 
@@ -20,30 +20,15 @@ struct Pillow {
   int added = 0;            ///< components of the pillow itself: base faces round the inside
 };
 
-/// A sheet that can be collapsed with a pillow, and not without.
-struct PillowedSheet {
-  int sheet = 0;  ///< place in extract_sheets()
-  Pillow pillow;
-  int gain = 0;  ///< components of the sheet less those of the pillow
-};
-
-/// All of them that gain at least two components, those that gain most first; of one sheet there may be
-/// two, with pillows on either side. Nothing is moved: whether the surface stays near is for a trial to
-/// tell. Cost O(#sheets * #cells), and some passes over the mesh for each that has a pillow.
-/// \param mesh    is edited, and then as before
-/// \param sheets  all of this base complex
-std::vector<PillowedSheet> find_pillows(HexMesh& mesh, const BaseComplex& bc,
-                                        const std::vector<Sheet>& sheets,
-                                        const ValenceLimits& limits);
-
 /// A mesh with a pillow in it, before its sheet is collapsed.
 struct InsertedPillow {
   SheetInsertion layer;
   BaseComplex base_complex;
   CollapsePlan plan;  ///< of the sheet, which has the same cells as before
 };
-/// Puts it in, each of its cells as thick as half of the one that it makes room in. None (and the mesh then
-/// needs to be rolled back) where the pillow would touch itself or the sheet would become another.
+/// Puts it in. What lies outside makes room for it, the sheet that is to go among it; what lies inside
+/// stays as it is. None (and the mesh then needs to be rolled back) where the pillow would touch itself or
+/// the sheet would become another.
 std::optional<InsertedPillow> insert_pillow(HexMesh& mesh, const BaseComplex& bc,
                                             const Sheet& sheet, const Pillow& pillow);
 
@@ -54,6 +39,9 @@ std::optional<InsertedPillow> insert_pillow(HexMesh& mesh, const BaseComplex& bc
 std::optional<Pillow> smallest_pillow(const HexMesh& mesh, const BaseComplex& bc,
                                       const Sheet& sheet, const CollapsePlan& plan,
                                       std::span<const int> groups, int side);
+
+/// The components that a sheet crosses, ascending.
+std::vector<int> components_of(const Sheet& sheet);
 
 /// By vertex handle, the sides of a sheet that the vertex lies on: 1, 2, 3 for both, 0 for neither.
 std::vector<char> sides_of_sheet(const HexMesh& mesh, const BaseComplex& bc, const Sheet& sheet);

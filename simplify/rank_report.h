@@ -14,7 +14,7 @@
 
 #include "simplify/candidates.h"
 #include "simplify/peel.h"
-#include "simplify/pillow.h"
+#include "simplify/pillow_search.h"
 
 namespace hexweft {
 

@@ -38,8 +38,8 @@ class RegionRelaxation {
 
  public:
   RegionRelaxation(TrialContext& context, const CollapsePlan& plan,
-                   std::span<const VertexHandle> merged, const Quality& old, const Outlook& outlook,
-                   const SimplifyOptions& options)
+                   std::span<const VertexHandle> merged, std::span<const CellHandle> gone,
+                   const Quality& old, const Outlook& outlook, const SimplifyOptions& options)
       : context_(context),
         options_(options),
         merged_distance_(outlook.distance_rel * context.distance_limit),
@@ -50,7 +50,7 @@ class RegionRelaxation {
         touched_(region_),
         least_(std::max(std::min(options.min_scaled_jacobian, old.least), 1e-3)),
         mean_(std::min(options.mean_scaled_jacobian, old.mean)) {
-    touched_.insert(touched_.end(), plan.removed.begin(), plan.removed.end());
+    touched_.insert(touched_.end(), gone.begin(), gone.end());
   }
 
   RegionResult run() {
@@ -251,9 +251,10 @@ int rings_round(const CollapsePlan& plan, const SimplifyOptions& options) {
 }
 
 RegionResult relax_region(TrialContext& context, const CollapsePlan& plan,
-                          std::span<const VertexHandle> merged, const Quality& old,
-                          const Outlook& outlook, const SimplifyOptions& options) {
-  return RegionRelaxation(context, plan, merged, old, outlook, options).run();
+                          std::span<const VertexHandle> merged, std::span<const CellHandle> gone,
+                          const Quality& old, const Outlook& outlook,
+                          const SimplifyOptions& options) {
+  return RegionRelaxation(context, plan, merged, gone, old, outlook, options).run();
 }
 
 }  // namespace hexweft

@@ -29,11 +29,13 @@ int rings_round(const CollapsePlan& plan, const SimplifyOptions& options);
 /// SimplifyOptions::splits_per_trial allows it, sheets are split across the place that is farthest.
 /// The distance of the context is then that of the new mesh, to be committed or rolled back; on a
 /// refusal it is as before.
-/// \param merged  the vertices that are left of those merged
+/// \param merged  the vertices that are left of those merged, and others round which it is to move
+/// \param gone    cells that were removed
 /// \param old     quality of the region before the edit
 /// \param outlook what the edit has left
 RegionResult relax_region(TrialContext& context, const CollapsePlan& plan,
-                          std::span<const VertexHandle> merged, const Quality& old,
-                          const Outlook& outlook, const SimplifyOptions& options);
+                          std::span<const VertexHandle> merged, std::span<const CellHandle> gone,
+                          const Quality& old, const Outlook& outlook,
+                          const SimplifyOptions& options);
 
 }  // namespace hexweft

@@ -78,13 +78,13 @@ std::vector<int> groups_near(const HexMesh& mesh, const CollapsePlan& plan,
 }
 
 // Gives up looking at the distance where that is reason enough to give up the trial.
-Outlook outlook_after(TrialContext& context, const CollapsePlan& plan,
+Outlook outlook_after(TrialContext& context, std::span<const CellHandle> gone,
                       std::span<const VertexHandle> left, double give_up_factor) {
   const StageTimer timer(context.clock, Stage::distance);
   std::vector<CellHandle> changed = cells_around(context.mesh, left, 1);
   Outlook outlook;
   outlook.least = measure_quality(context.mesh, changed).least;
-  changed.insert(changed.end(), plan.removed.begin(), plan.removed.end());
+  changed.insert(changed.end(), gone.begin(), gone.end());
   const double limit = give_up_factor * context.distance_limit;
   outlook.distance_rel =
       context.distance.after_change(context.mesh, changed, limit) / context.distance_limit;
@@ -92,10 +92,16 @@ Outlook outlook_after(TrialContext& context, const CollapsePlan& plan,
   return outlook;
 }
 
+EarlierEdit no_edit(const HexMesh& mesh, const CollapsePlan& plan, const SimplifyOptions& options) {
+  const std::vector<CellHandle> before =
+      cells_around(mesh, plan.members, rings_round(plan, options));
+  return {{}, {}, measure_quality(mesh, before)};
+}
+
 // Within an open transaction. If accepted, the distance is still to be committed, else it is as before.
 TrialResult collapse_and_relax(TrialContext& context, const SingularityGraph& graph,
                                const CollapsePlan& plan, const SimplifyOptions& options,
-                               const KnownFailure& known = {}) {
+                               const KnownFailure& known = {}, const EarlierEdit* edit = nullptr) {
   HexMesh& mesh = context.mesh;
   TrialResult result;
   {
@@ -110,14 +116,15 @@ TrialResult collapse_and_relax(TrialContext& context, const SingularityGraph& gr
     return result;
   }
   const int euler = euler_of_live(mesh);
-  const std::vector<CellHandle> before =
-      cells_around(mesh, plan.members, rings_round(plan, options));
-  const Quality old = measure_quality(mesh, before);
+  auto [moving, gone, old] = edit ? *edit : no_edit(mesh, plan, options);
   const auto left = apply_plan(mesh, plan, *targets);
   result.refusal = check_topology_after(mesh, left, euler);
   if (!result.accepted()) return result;
 
-  result.outlook = outlook_after(context, plan, left, options.merged_give_up_factor);
+  moving.insert(moving.end(), left.begin(), left.end());
+  std::erase_if(moving, [&](VertexHandle v) { return !mesh.is_live(v); });
+  gone.insert(gone.end(), plan.removed.begin(), plan.removed.end());
+  result.outlook = outlook_after(context, gone, moving, options.merged_give_up_factor);
   if (result.outlook->distance_rel > options.merged_give_up_factor) {
     result.refusal = Refusal::hausdorff;
     if (const auto& place = context.distance.too_far_at())
@@ -127,11 +134,26 @@ TrialResult collapse_and_relax(TrialContext& context, const SingularityGraph& gr
   }
   if (!result.accepted()) return result;
 
-  const RegionResult relaxed = relax_region(context, plan, left, old, *result.outlook, options);
+  const RegionResult relaxed =
+      relax_region(context, plan, moving, gone, old, *result.outlook, options);
   result.refusal = relaxed.refusal;
   result.quality_spent = old.mean - relaxed.quality.mean;
   if (relaxed.failed_at) result.cause = groups_near(mesh, plan, *relaxed.failed_at);
   return result;
+}
+
+// Within an open transaction. What takes a look at the whole mesh comes last: it hardly ever finds
+// anything. \return whether the collapse and all before it are to stay
+bool ends_simpler(TrialContext& context, std::size_t n_before, TrialResult& result) {
+  if (!result.accepted()) return false;
+  result.refusal = check_structure(context, n_before, result.base_complex);
+  if (result.accepted()) {
+    context.labels.reset();
+    return true;
+  }
+  context.distance.rollback();
+  result.base_complex = {};
+  return false;
 }
 
 }  // namespace
@@ -270,16 +292,16 @@ TrialResult try_collapse(TrialContext& context, const BaseComplex& bc, const Col
                          const SimplifyOptions& options) {
   Transaction trial(context.mesh);
   TrialResult result = collapse_and_relax(context, bc.graph, plan, options);
-  if (!result.accepted()) return result;
-  // What takes a look at the whole mesh comes last: it hardly ever finds anything.
-  result.refusal = check_structure(context, bc.components.size(), result.base_complex);
-  if (result.accepted()) {
-    commit(context, trial);
-    context.labels.reset();
-  } else {
-    context.distance.rollback();
-    result.base_complex = {};
-  }
+  if (ends_simpler(context, bc.components.size(), result)) commit(context, trial);
+  return result;
+}
+
+TrialResult try_collapse_after(const EarlierEdit& edit, TrialContext& context,
+                               const BaseComplex& bc, int n_before, const CollapsePlan& plan,
+                               const SimplifyOptions& options) {
+  Transaction trial(context.mesh);
+  TrialResult result = collapse_and_relax(context, bc.graph, plan, options, {}, &edit);
+  if (ends_simpler(context, n_before, result)) commit(context, trial);
   return result;
 }
 

@@ -68,10 +68,24 @@ struct TrialResult {
   bool accepted() const { return refusal == Refusal::none; }
 };
 
+/// An edit before the collapse that belongs to the same trial.
+struct EarlierEdit {
+  std::vector<VertexHandle> changed;  ///< round these the mesh moves as well
+  std::vector<CellHandle> removed;
+  Quality quality;  ///< before it, of what moves
+};
+
 /// Collapses; on refusal the mesh and the distance are as before. Cheap checks come first: the
 /// plan, the topology where it changed, the parametrization, the distance, the new base complex.
 TrialResult try_collapse(TrialContext& context, const BaseComplex& bc, const CollapsePlan& plan,
                          const SimplifyOptions& options);
+
+/// The same after an edit: on refusal the mesh is as that has left it, and the distance as before it.
+/// \param bc        of the mesh as it is
+/// \param n_before  components before the edit, of which fewer have to be left
+TrialResult try_collapse_after(const EarlierEdit& edit, TrialContext& context,
+                               const BaseComplex& bc, int n_before, const CollapsePlan& plan,
+                               const SimplifyOptions& options);
 
 /// The same but for the look at the whole mesh, which costs more than many a trial: the caller makes up
 /// for it with check_structure(), for several collapses at once, and must be able to undo them.

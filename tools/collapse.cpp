@@ -5,6 +5,7 @@
 #include "simplify/candidates.h"
 #include "simplify/feature_targets.h"
 #include "simplify/peel.h"
+#include "simplify/pillow_search.h"
 #include "simplify/pillowed_collapse.h"
 #include "tools/single_trial.h"
 

@@ -12,7 +12,7 @@
 #include "simplify/checkpoint.h"
 #include "simplify/failure_memory.h"
 #include "simplify/peel.h"
-#include "simplify/pillow.h"
+#include "simplify/pillow_search.h"
 #include "simplify/refine.h"
 #include "simplify/trial.h"
 

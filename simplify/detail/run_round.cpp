@@ -65,8 +65,9 @@ bool Run::pillow_one() {
   constexpr int kMostTried = 8;  // hardly any of the others succeeds
   know_base_complex();
   // It is a last resort, so any valence will do, but it has to leave good hexahedra.
-  SimplifyOptions options = careful_.options;
-  if (bold_.wanted) options.valence = bold_.options.valence;
+  SimplifyOptions options = bold_.wanted ? bold_.options : options_;
+  options.min_scaled_jacobian = careful_.options.min_scaled_jacobian;
+  options.mean_scaled_jacobian = careful_.options.mean_scaled_jacobian;
   const std::vector<Sheet> sheets = timed(Stage::ranking, [&] { return extract_sheets(bc_); });
   const std::vector<PillowedSheet> candidates =
       timed(Stage::planning, [&] { return find_pillows(mesh_, bc_, sheets, options.valence); });

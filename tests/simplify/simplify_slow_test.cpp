@@ -46,6 +46,21 @@ TEST(SimplifySlow, CoarseSurfacesKeepTheLimitBetweenTheirPoints) {
   EXPECT_GT(report.collapses(), 0);
 }
 
+TEST(SimplifySlow, PillowsTakeTheWayFreeWhereNothingElseGoes) {
+  const auto& solids = sample_solids();
+  const auto wedge = std::find_if(solids.begin(), solids.end(),
+                                  [](const SampleSolid& s) { return s.name == "wedge"; });
+  ASSERT_NE(wedge, solids.end());
+  const HexMesh input =
+      make_octree_like(turned(wedge->make(), random_rotation(0)), {.resolution = 10});
+  SimplifyOptions without;
+  without.pillows = false;
+  const SimplifyReport with_them = simplify_well(input), kept = simplify_well(input, without);
+  EXPECT_GT(with_them.pillows.accepted, 0);
+  EXPECT_LT(with_them.after.components, kept.after.components);
+  EXPECT_EQ(kept.pillows.tried(), 0);
+}
+
 // The same part simplified by each of the options.
 template <std::size_t n>
 std::array<SimplifyReport, n> simplify_by_each(const std::array<SimplifyOptions, n>& options) {

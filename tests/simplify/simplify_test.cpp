@@ -449,12 +449,11 @@ TEST(Simplify, ProfileAddsUpToTheRun) {
   const SimplifyReport report = simplify(mesh);
   EXPECT_NEAR(report.profile.seconds(), report.seconds, 0.01 * report.seconds);
   const Profile& p = report.profile;
-  EXPECT_EQ(report.profile[Stage::trial].entered,
-            report.sheets.tried() + report.chords.tried() + report.peels.tried() +
-                report.pillows.tried());
+  EXPECT_EQ(report.profile[Stage::trial].entered, report.sheets.tried() + report.chords.tried() +
+                                                      report.peels.tried() +
+                                                      report.pillows.tried());
   double trials = 0;
-  for (const TrialCounts* c :
-       {&report.sheets, &report.chords, &report.peels, &report.pillows}) {
+  for (const TrialCounts* c : {&report.sheets, &report.chords, &report.peels, &report.pillows}) {
     trials = std::accumulate(c->seconds.begin(), c->seconds.end(), trials);
   }
   const double own = p[Stage::trial].seconds + p[Stage::plan_check].seconds +
