@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "ovm/detail/sort_unique.h"
 #include "ovm/dual.h"
 
 namespace hexweft {
@@ -50,8 +51,7 @@ std::vector<FaceHandle> faces(const HexMesh& mesh, VertexHandle v) {
     const auto& x = kCornerCoords[it.slot() % 8];
     for (int a = 0; a < 3; ++a) result.push_back(mesh.face(side_at(*it, a, x[a])));
   }
-  std::sort(result.begin(), result.end());
-  result.erase(std::unique(result.begin(), result.end()), result.end());
+  detail::sort_unique(result);
   return result;
 }
 

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <unordered_map>
 
+#include "ovm/detail/sort_unique.h"
 #include "simplify/component_cut.h"
 
 namespace hexweft {
@@ -19,17 +20,12 @@ bool runs_against(const BaseComplex& bc, const Sheet& sheet, const Crossing& x) 
   return edge_against != (bc.edges[*i].ends[0] != c.corners[kEdgeCorners[edge][0]]);
 }
 
-void sort_unique(std::vector<int>& some) {
-  std::sort(some.begin(), some.end());
-  some.erase(std::unique(some.begin(), some.end()), some.end());
-}
-
 }  // namespace
 
 std::vector<int> components_of(const Sheet& sheet) {
   std::vector<int> crossed;
   for (const Crossing& x : sheet.crossings) crossed.push_back(x.component);
-  sort_unique(crossed);
+  detail::sort_unique(crossed);
   return crossed;
 }
 
@@ -68,8 +64,8 @@ std::optional<Pillow> smallest_pillow(const HexMesh& mesh, const BaseComplex& bc
     }
   }
   outside.insert(outside.end(), crossed.begin(), crossed.end());
-  sort_unique(inside);
-  sort_unique(outside);
+  detail::sort_unique(inside);
+  detail::sort_unique(outside);
   std::vector<int> both;
   std::set_intersection(inside.begin(), inside.end(), outside.begin(), outside.end(),
                         std::back_inserter(both));
@@ -127,14 +123,14 @@ std::vector<CellHandle> replaced(std::vector<CellHandle> cells, const SheetInser
 }  // namespace
 
 std::optional<InsertedPillow> insert_pillow(HexMesh& mesh, const BaseComplex& bc,
-                                            const Sheet& sheet, const Pillow& pillow) {
+                                            const Sheet& sheet, const CollapsePlan& plan,
+                                            const Pillow& pillow) {
   std::vector<char> is_inside(bc.components.size(), 0);
   for (int c : pillow.inside) is_inside[c] = 1;
   std::vector<CellHandle> outside;
   for (CellHandle cell : mesh.cells()) {
     if (!is_inside[bc.component_of_cell[cell.idx]]) outside.push_back(cell);
   }
-  const CollapsePlan plan = plan_sheet_collapse(mesh, bc, sheet);
   InsertedPillow result;
   result.layer = insert_sheet(mesh, outside);
   if (result.layer.refusal != InsertRefusal::none) return std::nullopt;

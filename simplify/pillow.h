@@ -29,8 +29,10 @@ struct InsertedPillow {
 /// Puts it in. What lies outside makes room for it, the sheet that is to go among it; what lies inside
 /// stays as it is. None (and the mesh then needs to be rolled back) where the pillow would touch itself or
 /// the sheet would become another.
+/// \param plan  of the sheet in the mesh as it is
 std::optional<InsertedPillow> insert_pillow(HexMesh& mesh, const BaseComplex& bc,
-                                            const Sheet& sheet, const Pillow& pillow);
+                                            const Sheet& sheet, const CollapsePlan& plan,
+                                            const Pillow& pillow);
 
 /// The smallest pillow on one side of a sheet that keeps groups of its plan apart; none where the sheet
 /// touches itself at these.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include "ovm/detail/sort_unique.h"
 #include "ovm/topology_check.h"
 #include "ovm/transaction.h"
 
@@ -11,11 +12,6 @@ namespace {
 
 // Components that have to go more than come for a pillow to be worth a trial.
 constexpr int kLeastGain = 2;
-
-void sort_unique(std::vector<int>& some) {
-  std::sort(some.begin(), some.end());
-  some.erase(std::unique(some.begin(), some.end()), some.end());
-}
 
 // Of a violation, those that may have been merged.
 std::vector<VertexHandle> vertices_of(const HexMesh& mesh, const TopologyViolation& v) {
@@ -57,7 +53,7 @@ Obstacle doublets_after(HexMesh& mesh, const SingularityGraph& graph, const Coll
         found.groups.push_back(g->second);
     }
   }
-  sort_unique(found.groups);
+  detail::sort_unique(found.groups);
   return found;
 }
 
@@ -102,7 +98,7 @@ class PillowSearch {
       auto pillow = smallest_pillow(mesh_, bc_, sheet_, plan_, groups, side);
       if (!pillow || pillow->added + kLeastGain > n_components_) return std::nullopt;
       Transaction look(mesh_);
-      const auto inserted = insert_pillow(mesh_, bc_, sheet_, *pillow);
+      const auto inserted = insert_pillow(mesh_, bc_, sheet_, plan_, *pillow);
       if (!inserted) return std::nullopt;
       const Obstacle obstacle =
           find_obstacle(mesh_, inserted->base_complex.graph, inserted->plan, limits_);
@@ -130,7 +126,7 @@ class PillowSearch {
         if (known != group_of.end()) groups.push_back(known->second);
       }
     }
-    sort_unique(groups);
+    detail::sort_unique(groups);
   }
 
   HexMesh& mesh_;

@@ -15,7 +15,8 @@ TrialResult try_pillowed_collapse(TrialContext& context, const BaseComplex& bc, 
   edit.quality = measure_quality(mesh, all_cells(mesh));
   TrialResult result;
   Transaction trial(mesh);
-  const auto inserted = insert_pillow(mesh, bc, sheet, pillow);
+  const auto inserted =
+      insert_pillow(mesh, bc, sheet, plan_sheet_collapse(mesh, bc, sheet), pillow);
   const int n_cells =
       mesh.n_cells() - static_cast<int>(inserted ? inserted->plan.removed.size() : 0);
   if (!inserted || n_cells > most_cells) {

@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include "ovm/detail/sort_unique.h"
 #include "simplify/disjoint_sets.h"
 
 namespace hexweft {
@@ -194,8 +195,7 @@ std::vector<int> groups_out_of_limits(const HexMesh& mesh, const SingularityGrap
     }
     return true;
   });
-  std::sort(groups.begin(), groups.end());
-  groups.erase(std::unique(groups.begin(), groups.end()), groups.end());
+  detail::sort_unique(groups);
   return groups;
 }
 

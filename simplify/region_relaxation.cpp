@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "optimize/hex_energy.h"
+#include "ovm/detail/sort_unique.h"
 #include "ovm/dual.h"
 #include "ovm/edit/split_sheet.h"
 #include "ovm/quality.h"
@@ -162,8 +163,7 @@ class RegionRelaxation {
     parametrization_.reset();
     touched_.insert(touched_.end(), split.removed.begin(), split.removed.end());
     touched_.insert(touched_.end(), split.cells.begin(), split.cells.end());
-    std::sort(touched_.begin(), touched_.end());
-    touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
+    detail::sort_unique(touched_);
     return true;
   }
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "ovm/detail/carry_properties.h"
+#include "ovm/detail/sort_unique.h"
 #include "ovm/errors.h"
 #include "ovm/topology_check.h"
 #include "ovm/transaction.h"
@@ -15,12 +16,6 @@ using Eigen::Vector3d;
 
 // Side of a layer cell over edge i of the quad it stands on (side 4 is the quad).
 constexpr std::array<int, 4> kSideOverEdge{2, 1, 3, 0};
-
-template <class HandleT>
-void sort_unique(std::vector<HandleT>& handles) {
-  std::sort(handles.begin(), handles.end());
-  handles.erase(std::unique(handles.begin(), handles.end()), handles.end());
-}
 
 // A quad of the interface, as it was before any edit.
 struct InterfaceQuad {
@@ -135,11 +130,11 @@ void SheetInserter::gather_interface() {
       }
     }
   }
-  sort_unique(interface_edges_);
+  detail::sort_unique(interface_edges_);
   std::vector<VertexHandle> outer;
   for (const InterfaceQuad& q : quads_)
     outer.insert(outer.end(), q.vertices.begin(), q.vertices.end());
-  sort_unique(outer);
+  detail::sort_unique(outer);
   for (VertexHandle v : outer) vertices_.emplace_back().outer = v;
   for (InterfaceVertex& v : vertices_) aim(v);
 }
@@ -188,7 +183,7 @@ std::vector<CellHandle> SheetInserter::cells_to_replace() const {
       if (is_inside(c)) cells.push_back(c);
     }
   }
-  sort_unique(cells);
+  detail::sort_unique(cells);
   return cells;
 }
 

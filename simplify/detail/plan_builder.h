@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "ovm/detail/sort_unique.h"
 #include "simplify/collapse_plan.h"
 #include "simplify/disjoint_sets.h"
 
@@ -25,9 +26,7 @@ class PlanBuilder {
   }
 
   CollapsePlan finish(int width) {
-    std::sort(plan_.removed.begin(), plan_.removed.end());
-    plan_.removed.erase(std::unique(plan_.removed.begin(), plan_.removed.end()),
-                        plan_.removed.end());
+    sort_unique(plan_.removed);
     std::vector<std::pair<int, VertexHandle>> by_class;
     by_class.reserve(sets_.size());
     for (int i = 0; i < sets_.size(); ++i) by_class.emplace_back(sets_.find(i), vertices_[i]);

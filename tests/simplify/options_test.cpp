@@ -51,6 +51,7 @@ INSTANTIATE_TEST_SUITE_P(
                     o.features = {FeatureMode::angle, 200};
                   }},
         BadOption{"rings", [](O& o) { o.rings = 0; }},
+        BadOption{"compare", [](O& o) { o.compare = 0; }},
         BadOption{"give_up_factor", [](O& o) { o.give_up_factor = 0.5; }},
         BadOption{"merged_give_up_factor", [](O& o) { o.merged_give_up_factor = 0; }},
         BadOption{"merged_give_up_factor", [](O& o) { o.bold.merged_give_up_factor = kNaN; }},

@@ -39,6 +39,30 @@ TEST(Pillow, TakesTheWayFreeForASheetThatWouldLeaveTwoCellsAtAnEdge) {
   EXPECT_LE(b.distance.distance(), b.context.distance_limit);
 }
 
+TEST(Pillow, OneThatLeavesPoorHexahedraIsTakenBackWithTheCollapse) {
+  TrialBench b(make_blocked_sheet());
+  const std::vector<Sheet> sheets = extract_sheets(b.bc);
+  SimplifyOptions none_is_good_enough;
+  none_is_good_enough.min_scaled_jacobian = 0.99;
+  none_is_good_enough.mean_scaled_jacobian = 0.999;
+  const std::vector<PillowedSheet> found = find_pillows(b.mesh, b.bc, sheets, {});
+  ASSERT_FALSE(found.empty());
+  const MeshDump before(b.mesh);
+  std::vector<double> distance = b.distance.distance_by_halfface();
+  for (const PillowedSheet& p : found) {
+    b.context.distance_limit = b.context.final_limit = 1e-12;
+    const TrialResult result =
+        try_pillowed_collapse(b.context, b.bc, sheets[p.sheet], p.pillow, none_is_good_enough);
+    EXPECT_FALSE(result.accepted());
+    EXPECT_TRUE(result.base_complex.components.empty());
+    EXPECT_TRUE(MeshDump(b.mesh) == before);
+    // Of half-faces that there were for a while it knows nothing.
+    const std::vector<double> now = b.distance.distance_by_halfface();
+    distance.resize(now.size(), 0);
+    EXPECT_EQ(now, distance);
+  }
+}
+
 class PillowsOfEveryFamily : public testing::TestWithParam<MeshFamily> {};
 
 TEST_P(PillowsOfEveryFamily, TheSidesOfASheetAreTheEndsOfItsEdges) {
@@ -75,7 +99,7 @@ TEST_P(PillowsOfEveryFamily, AnInsertedOneAddsItsComponentsAndLeavesTheSheetItsC
       const MeshDump before(mesh);
       {
         Transaction look(mesh);
-        const auto inserted = insert_pillow(mesh, bc, sheets[i], *pillow);
+        const auto inserted = insert_pillow(mesh, bc, sheets[i], plan, *pillow);
         if (inserted) {
           ++inserted_ones;
           std::vector<CellHandle> as_before = inserted->plan.removed;

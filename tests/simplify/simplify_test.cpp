@@ -409,6 +409,16 @@ TEST(Simplify, ObserverIsToldOfEveryKindOfStep) {
   }
 }
 
+TEST(Simplify, ComparesCandidatesIfAsked) {
+  const HexMesh input = make_small_sphere();
+  SimplifyOptions options;
+  options.compare = 3;
+  const SimplifyReport one = simplify_well(input), compared = simplify_well(input, options);
+  EXPECT_GT(compared.collapses(), 0);
+  EXPECT_LT(compared.after.components, compared.before.components / 2);
+  EXPECT_EQ(one.before.components, compared.before.components);
+}
+
 // What is told of the smoothed meshes that it goes on from, and in the end.
 TEST(Simplify, GoesOnFromTheSmoothedMeshToABetterOutcomeOnly) {
   struct Input {

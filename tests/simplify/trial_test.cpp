@@ -60,6 +60,31 @@ TEST(Trial, AcceptedOneIsValidSimplerAndNear) {
   EXPECT_EQ(shape.genus, 0);
 }
 
+TEST(Trial, WeighingTellsWhatTheCollapseComesToAndTakesItBack) {
+  TrialBench b(make_octree_like(Shape::sphere, 7));
+  const auto plans = all_plans(b.mesh, b.bc, 5);
+  int weighed = 0;
+  for (std::size_t i = 0; i < plans.size() && weighed < 3; ++i) {
+    const MeshDump mesh(b.mesh);
+    const DistanceState distance(b.distance);
+    const double before = b.distance.distance();
+    CollapseOutcome outcome;
+    const TrialResult result = weigh_collapse(b.context, b.bc, plans[i], {}, outcome);
+    EXPECT_TRUE(MeshDump(b.mesh) == mesh);
+    EXPECT_TRUE(DistanceState(b.distance) == distance);
+    if (!result.accepted()) continue;
+    ++weighed;
+    TrialBench made(make_octree_like(Shape::sphere, 7));
+    const TrialResult kept = try_collapse(made.context, made.bc, plans[i], {});
+    ASSERT_TRUE(kept.accepted());
+    EXPECT_EQ(static_cast<int>(kept.base_complex.components.size()), outcome.components);
+    EXPECT_EQ(kept.quality_spent, outcome.quality_spent);
+    EXPECT_NEAR(outcome.distance_spent * b.context.distance_limit,
+                made.distance.distance() - before, 1e-12);
+  }
+  EXPECT_EQ(weighed, 3);
+}
+
 TEST(Trial, ArmOfAnLIsTooFarFromTheInput) {
   TrialBench b(make_l_shape(2));
   int legal = 0;
