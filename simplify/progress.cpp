@@ -7,9 +7,9 @@
 namespace hexweft {
 
 std::string_view name(StepKind kind) {
-  static constexpr std::array<std::string_view, 9> names = {"start",      "sheet",  "chord",
-                                                            "peel",       "pillow", "coarsening",
-                                                            "refinement", "relief", "smoothing"};
+  static constexpr std::array<std::string_view, 10> names = {
+      "start",      "sheet",      "chord",  "peel",      "pillow",
+      "coarsening", "refinement", "relief", "smoothing", "back"};
   return names[static_cast<std::size_t>(kind)];
 }
 

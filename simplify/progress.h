@@ -20,7 +20,8 @@ enum class StepKind {
   coarsening,  ///< layers were taken out of sheets, before the first collapse
   refinement,  ///< a sheet was split
   relief,      ///< the place farthest from the surface was relaxed
-  smoothing  ///< the whole mesh was smoothed, or relaxed before a first collapse; the last is of the output
+  smoothing,  ///< the whole mesh was smoothed, or relaxed before a first collapse; the last is of the output
+  back  ///< a mesh of the way was taken up again: the one after SimplifyProgress::step
 };
 std::string_view name(StepKind kind);
 constexpr bool is_collapse(StepKind k) {

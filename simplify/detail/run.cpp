@@ -115,7 +115,7 @@ void Run::coarsen_input() {
   BaseComplex now;
   if (mesh_.n_cells() > most ||
       check_structure(context_, bc_.components.size() + 1, now) != Refusal::none) {
-    replace_mesh(verified_);
+    replace_mesh(verified_.mesh);
     return;
   }
   compact();
@@ -187,42 +187,6 @@ void Run::loop_from_smoothed() {
   observe({.what = StepKind::smoothing});
   record();
   loop_afresh();
-}
-
-// Has another go from the smoothed mesh. Of the two outcomes the better one is kept.
-// \return whether one more may be worth its time
-bool Run::improve() {
-  constexpr double kWorthMore = 0.95;  // of the components are left at most
-  const Outcome before = outcome();
-  const HexMesh smoothed = mesh_;
-  const int collapses = report_.collapses();
-  take_as_verified();
-  loop_from_smoothed();
-  if (report_.collapses() > collapses) finish();
-  if (const Outcome now = outcome(); now.is_better_than(before))
-    return now.components <= kWorthMore * before.components;
-  if (!is_smoothed()) return_to(smoothed, before);
-  return false;
-}
-
-Run::Outcome Run::outcome() const {
-  return {tally(), static_cast<int>(bc_.components.size()), min_scaled_jacobian(mesh_),
-          report_.hausdorff_ratio};
-}
-
-// Components for quality: a larger share of them has to be gone than of the least scaled Jacobian.
-bool Run::Outcome::is_better_than(const Outcome& other) const {
-  const double components_left = static_cast<double>(components) / other.components;
-  return components < other.components &&
-         components_left <= min_scaled_jacobian / other.min_scaled_jacobian;
-}
-
-void Run::return_to(const HexMesh& mesh, const Outcome& before) {
-  replace_mesh(mesh);
-  report_.hausdorff_ratio = before.hausdorff_ratio;
-  report_.refinement_failed += report_.refined - before.tally.refined;
-  count_as_refused(before.tally, Refusal::quality);
-  smoothed_step_ = step_;
 }
 
 bool Run::is_stuck() {

@@ -63,23 +63,27 @@ class Run {
     double worth = 0;         ///< the same
   };
 
+  /// What was accepted on the way to a mesh.
   struct Tally {
-    int step, refined, sheets, chords, peels, pillows;
+    int step, coarsened, refined, sheets, chords, peels, pillows;
+    int collapses() const { return sheets + chords + peels + pillows; }
   };
   Tally tally() const {
     return {step_,
+            report_.coarsened,
             report_.refined,
             report_.sheets.accepted,
             report_.chords.accepted,
             report_.peels.accepted,
             report_.pillows.accepted};
   }
-  /// Of a smoothed mesh.
-  struct Outcome {
-    Tally tally;
+  /// A mesh that may be written, to be gone back to.
+  struct Milestone {
+    HexMesh mesh;
     int components;
-    double min_scaled_jacobian, hausdorff_ratio;
-    bool is_better_than(const Outcome& other) const;
+    Tally tally;
+    bool smoothed;
+    double hausdorff_ratio;  ///< if it is smoothed
   };
 
   // ---- The loop (run.cpp) ----
@@ -90,7 +94,6 @@ class Run {
   void collapse_while_possible(std::span<Manner* const> in_turn);
   void finish();
   void go_on_from_relaxed();
-  bool improve();
   void go_on_with_all_cells();
   bool is_stuck();
   void refine_while_short();
@@ -101,8 +104,6 @@ class Run {
   double full_count() const;  // of cells, that the output is to have
   void aim_at(double cells);
   bool is_short_of_cells(double share) const;
-  Outcome outcome() const;
-  void return_to(const HexMesh& mesh, const Outcome& before);
   bool should_stop();   // for good or for lack of progress
   bool is_cut_short();  // asked to stop, or out of time
 
@@ -132,6 +133,19 @@ class Run {
   void take_back(Round& round, const Tally& before, Refusal refusal, Manner& manner);
   void count_as_refused(const Tally& before, Refusal refusal);
 
+  // ---- Meshes that may be written (run_milestones.cpp) ----
+  Milestone milestone() const;
+  bool may_be_written() const;
+  void verify();
+  void take_as_verified();
+  void go_back();
+  void return_to(const Milestone& milestone, Refusal refusal);
+  bool ends_well();
+  void end_with_what_may_be_written();
+  void give_back_input();
+  bool improve();
+  bool is_better_than(const Milestone& other) const;
+
   // ---- What goes on beside it (run_record.cpp) ----
   double seconds() const;  // since the start of this run
   RunState state();
@@ -140,16 +154,9 @@ class Run {
   void tell_of_output(SimplifyProgress p);
   void tell(SimplifyProgress p);
   void keep_checkpoint(bool now = false);
-  bool may_be_written() const;
-  void verify();
-  void take_as_verified();
-  void go_back();
-  bool ends_well();
-  void end_with_what_may_be_written();
   void replace_mesh(const HexMesh& mesh);
   void forget_failures();
   void compact();
-  void give_back_input();
   SmoothingOptions smoothing_options() const;
   void smooth_all(SmoothingOptions options);
   bool is_smoothed() const { return smoothed_step_ == step_; }
@@ -174,8 +181,7 @@ class Run {
   Manner careful_, ordinary_, bold_;
   std::vector<EdgeHandle> not_refinable_;  // lowest edges of sheets whose split failed on this mesh
   SimplifyReport report_;
-  HexMesh verified_;  // the last mesh that may be written; at first the input
-  int verified_components_ = 0;
+  Milestone verified_;       // the last; at first the input
   double target_cells_ = 0;  // what the loop keeps the count near
   int step_ = 0;             // collapses, splits and layers that the mesh is away from the input
   int smoothed_step_ = -1;   // after which the mesh was smoothed the last time

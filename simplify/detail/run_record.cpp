@@ -136,52 +136,6 @@ void Run::keep_checkpoint(bool now) {
   last_checkpoint_ = Clock::now();
 }
 
-// The loop looks where a step has changed something, at few samples; this looks at everything.
-bool Run::may_be_written() const {
-  const TopologySummary t = summarize_topology(mesh_);
-  return is_valid(mesh_) && min_scaled_jacobian(mesh_) > 0 && t.genus == context_.shape.genus &&
-         t.n_parts == context_.shape.n_parts &&
-         is_within(mesh_, reference_, context_.final_limit, {.parallel = options_.threads > 1});
-}
-
-// Keeps a copy that is within the limit at full sampling.
-void Run::verify() {
-  const auto verifying = timer(Stage::verification);
-  if (may_be_written()) {
-    take_as_verified();
-  } else {
-    go_back();
-  }
-}
-
-void Run::take_as_verified() {
-  verified_ = mesh_;
-  verified_components_ = static_cast<int>(bc_.components.size());
-}
-
-// To the last mesh that may be written; what comes keeps more distance from the limit.
-void Run::go_back() {
-  context_.distance_limit *= 0.95;
-  replace_mesh(verified_);
-  verified_components_ = static_cast<int>(bc_.components.size());
-}
-
-bool Run::ends_well() {
-  const auto verifying = timer(Stage::verification);
-  return step_ == 0 || may_be_written();
-}
-
-void Run::end_with_what_may_be_written() {
-  constexpr int kMore = 2;  // goes at what was lost
-  bool well = ends_well();
-  for (int i = 0; i < kMore && !well && !is_cut_short(); ++i) {
-    go_back();
-    loop();
-    well = ends_well();
-  }
-  if (!well) go_back();
-}
-
 // Handles change: what is known by handle is made anew.
 void Run::replace_mesh(const HexMesh& mesh) {
   const auto extracting = timer(Stage::base_complex);
@@ -199,17 +153,6 @@ void Run::forget_failures() {
 }
 
 void Run::compact() { replace_mesh(mesh_); }
-
-// Splits, layers taken out and relaxing that made room for no collapse were for nothing.
-void Run::give_back_input() {
-  replace_mesh(verified_);
-  step_ = 0;
-  smoothed_step_ = -1;
-  made_room_ = false;
-  report_.refinement_failed += report_.refined;
-  report_.refined = 0;
-  report_.coarsened = 0;
-}
 
 // What collapses leave is poor in few places: passes over the whole mesh for its worst cells gain less
 // than they cost.

@@ -293,9 +293,9 @@ void Run::end(Round& round, const Tally& before, Manner& manner) {
   round.commit();
   bc_ = std::move(after);
   bc_of_this_mesh_ = true;
-  if (static_cast<double>(bc_.components.size()) <= kVerifyEvery * verified_components_) verify();
-  if (mesh_.cell_slots() > 4 * mesh_.n_cells()) compact();
   record();
+  if (static_cast<double>(bc_.components.size()) <= kVerifyEvery * verified_.components) verify();
+  if (mesh_.cell_slots() > 4 * mesh_.n_cells()) compact();
 }
 
 // Of several the guilty one is not known: they are tried again one by one.
@@ -313,6 +313,8 @@ void Run::take_back(Round& round, const Tally& before, Refusal refusal, Manner& 
 // What was accepted since then.
 void Run::count_as_refused(const Tally& before, Refusal refusal) {
   step_ = before.step;
+  report_.coarsened = before.coarsened;
+  report_.refinement_failed += report_.refined - before.refined;
   report_.refined = before.refined;
   const auto refuse = [&](TrialCounts& counts, int accepted_before) {
     counts.refused[static_cast<int>(refusal)] += counts.accepted - accepted_before;

@@ -2,6 +2,8 @@
 /// What every output of the loop must be.
 #pragma once
 
+#include <vector>
+
 #include <gmock/gmock.h>
 
 #include "optimize/hausdorff.h"
@@ -38,6 +40,17 @@ inline void expect_good_output(const HexMesh& input, const HexMesh& output,
   EXPECT_EQ(report.before.hexahedra, input.n_cells());
   EXPECT_EQ(report.after.hexahedra, output.n_cells());
   EXPECT_EQ(report.after.min_scaled_jacobian, min_scaled_jacobian(output));
+}
+
+/// What an observer was told, less the steps that were gone back behind.
+inline std::vector<SimplifyProgress> without_taken_back(const std::vector<SimplifyProgress>& told) {
+  std::vector<SimplifyProgress> steps;
+  for (const SimplifyProgress& p : told) {
+    if (p.what == StepKind::back)
+      std::erase_if(steps, [&](const SimplifyProgress& earlier) { return earlier.step > p.step; });
+    steps.push_back(p);
+  }
+  return steps;
 }
 
 /// Simplifies a copy, of which all that must hold.
