@@ -171,11 +171,11 @@ bool PartialMove::run() {
   place();
   for (int at_samples = 0, between = 0;
        at_samples < kRounds && between < kRounds && mend_hexes();) {
+    // Looking at the distance costs most, and only takes away more.
+    if (worth_keeping_ && !worth_keeping_(scaled_jacobians_)) break;
     std::fill(marked_.begin(), marked_.end(), 0);
     if (mark_far_sides()) {
       take_back_round_marks(at_samples++);
-    } else if (worth_keeping_ && !worth_keeping_(scaled_jacobians_)) {
-      break;  // what lies between the samples costs most, and takes away more
     } else if (mark_far_between()) {
       take_back_round_marks(kHalvings);  // all the way at once: each look costs much
       ++between;

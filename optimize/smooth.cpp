@@ -1,8 +1,11 @@
 #include "optimize/smooth.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "optimize/hausdorff.h"
@@ -42,6 +45,20 @@ SurfaceDistanceOptions samples_for(double limit) {
 
 constexpr double kLeastGain = 5e-3, kMeanGain = 5e-4;  // of a whole-mesh pass worth its time
 
+/// What the passes for the mean have gained so far, over all cycles: each less than the one before it,
+/// in about the same ratio.
+struct MeanGains {
+  double last_but_one = std::numeric_limits<double>::infinity(), last = last_but_one;
+
+  /// Whether another pass may gain enough to be kept.
+  bool promise_more() const {
+    constexpr double kChance = 0.5;  // the ratio is not that steady
+    if (std::isinf(last_but_one)) return last > 0;
+    return last * last / last_but_one >= kChance * kMeanGain;
+  }
+  void add(double gain) { last_but_one = std::exchange(last, gain); }
+};
+
 /// What a pass must reach to be kept.
 struct Aim {
   double floor;                  // of every hexahedron that moves, unless it was lower before
@@ -52,10 +69,12 @@ struct Aim {
 class Smoother {
  public:
   /// \param limit  of the distance, model units
+  /// \param gains  of earlier cycles; this one's are added
   Smoother(HexMesh& mesh, const ReferenceSurface& reference, const SmoothingOptions& options,
-           double limit)
+           double limit, MeanGains& gains)
       : mesh_(mesh),
         options_(options),
+        mean_gains_(gains),
         distance_(mesh, reference, samples_for(limit)),
         cells_(all_cells(mesh)),
         limit_(limit) {}
@@ -76,6 +95,7 @@ class Smoother {
 
   HexMesh& mesh_;
   const SmoothingOptions& options_;
+  MeanGains& mean_gains_;
   SurfaceDistance distance_;
   std::vector<CellHandle> cells_;
   std::vector<CellHandle> moved_;  // of the last attempt
@@ -151,10 +171,13 @@ void Smoother::relax_for_least() {
 }
 
 void Smoother::relax_for_mean() {
-  for (int round = 0; round < options_.mean_rounds && !stopped(); ++round) {
-    const double least = measure(scaled_jacobians(mesh_, cells_)).least;
+  for (int round = 0; round < options_.mean_rounds && mean_gains_.promise_more() && !stopped();
+       ++round) {
+    const double least = measure(scaled_jacobians(mesh_, cells_)).least, before = mean_;
     const ParametrizationOptions o = options_for_mean(options_.parametrization, least);
-    if (!attempt(cells_, o, {least, kLeastGain, kMeanGain})) break;
+    const bool gains = attempt(cells_, o, {least, kLeastGain, kMeanGain});
+    mean_gains_.add(mean_ - before);
+    if (!gains) break;
     ++report_.accepted_global;
   }
 }
@@ -229,18 +252,22 @@ SmoothingReport Smoother::run() {
 }
 
 /// One cycle. \param before  Hausdorff ratio at the start of the first, or what it is not over
+/// \param gains  of the cycles before; this one's are added
 /// \return nothing, with the mesh as it was, if all that it tried ended over the limit
 std::optional<SmoothingReport> run_cycle(HexMesh& mesh, const ReferenceSurface& reference,
-                                         const SmoothingOptions& options, double before) {
+                                         const SmoothingOptions& options, double before,
+                                         MeanGains& gains) {
   // The passes do not look quite as closely as the last word; where that is
   // over the limit, they start again with a little less room.
+  const MeanGains earlier = gains;
   for (double room : {1.0, 0.9, 0.6}) {
+    gains = earlier;
     if (room < 1 && options.initial_hausdorff_rel)
       before = std::min(before, hausdorff_distance(mesh, reference).ratio());
     Transaction attempt(mesh);
     const double limit = std::max(before, room * options.hausdorff_limit_rel);
     SmoothingReport report =
-        Smoother(mesh, reference, options, limit * reference.bounding_box_diagonal()).run();
+        Smoother(mesh, reference, options, limit * reference.bounding_box_diagonal(), gains).run();
     report.initial_hausdorff_rel = before;
     report.hausdorff_rel = hausdorff_distance(mesh, reference).ratio();
     if (report.hausdorff_rel > std::max(before, options.hausdorff_limit_rel)) continue;
@@ -300,8 +327,9 @@ SmoothingReport smooth(HexMesh& mesh, const ReferenceSurface& reference,
   report.initial_mean_scaled_jacobian = report.mean_scaled_jacobian = start.mean;
   report.initial_hausdorff_rel = report.hausdorff_rel = before;
   bool any = false;
+  MeanGains gains;
   for (int cycle = 0; cycle < options.cycles && !options.stop.stop_requested(); ++cycle) {
-    const auto next = run_cycle(mesh, reference, options, before);
+    const auto next = run_cycle(mesh, reference, options, before, gains);
     if (!next) break;
     any = true;
     report = both(report, *next);
