@@ -31,7 +31,8 @@ using WorthKeeping = std::function<bool(const std::vector<double>& scaled_jacobi
 /// place between the samples.
 /// \param before    the region as it was; only its free vertices have moved
 /// \param distance  of the mesh before the move; afterwards, if true, up to date but not committed
-/// \param worth_keeping  of what fits; all of it is if this is empty
+/// \param worth_keeping  asked of what the hexahedra bear, before the surface is looked at and after all
+///                       that this takes back; all is worth it if this is empty
 /// \return false if no part of the move fits, or what does is not worth it; the points are then
 ///         anything between
 bool keep_what_fits(HexMesh& mesh, const Region& before, SurfaceDistance& distance,

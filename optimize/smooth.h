@@ -40,7 +40,8 @@ struct SmoothingReport {
 /// whole mesh. Of a pass is kept what lowers no hexahedron below the least scaled Jacobian (of the
 /// mesh; of the neighborhood for a local one), and no part of the surface over the Hausdorff limit or
 /// over what the distance was if that is more; a pass that then gains nothing is undone. Ends when
-/// nothing gains. An inverted mesh is untangled if it can be.
+/// nothing gains; no pass for the mean is begun where the gains of the last two, extended, are too
+/// small. An inverted mesh is untangled if it can be.
 SmoothingReport smooth(HexMesh& mesh, const ReferenceSurface& reference,
                        const SmoothingOptions& options = {});
 

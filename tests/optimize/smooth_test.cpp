@@ -86,6 +86,19 @@ TEST(Smooth, PassesForTheMeanRaiseItAndKeepTheLeast) {
   }
 }
 
+// One that gains nothing is the last, in later cycles too.
+TEST(Smooth, PassesForTheMeanEndWhereTheyPromiseNothing) {
+  for (Shape shape : {Shape::blob, Shape::torus, Shape::double_torus}) {
+    SCOPED_TRACE(name(shape));
+    HexMesh mesh = make_octree_like(shape, 10, 1);
+    const SmoothingReport r =
+        smooth(mesh, make_reference_surface(mesh),
+               {.cycles = 4, .global_rounds = 0, .mean_rounds = 20, .local_trials = 0});
+    EXPECT_GT(r.accepted_global, 0);
+    EXPECT_LE(r.trials, r.accepted_global + 1);
+  }
+}
+
 TEST(Smooth, MoreCyclesGoOnWhereOneEnds) {
   for (Shape shape : {Shape::blob, Shape::double_torus}) {
     SCOPED_TRACE(name(shape));
