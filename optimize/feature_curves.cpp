@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "ovm/detail/sort_unique.h"
+
 namespace hexweft {
 namespace {
 
@@ -103,8 +105,7 @@ std::vector<CurvePoint> FeatureCurves::within(const Eigen::Vector3d& p, double r
   Nearby nearby{p, reach};
   if (n_lines() > 0) Eigen::BVIntersect(stretches_, nearby);
   std::vector<int>& lines = nearby.lines;
-  std::sort(lines.begin(), lines.end());
-  lines.erase(std::unique(lines.begin(), lines.end()), lines.end());
+  detail::sort_unique(lines);
   std::vector<CurvePoint> found;
   for (const int line : lines) {
     CurvePoint best;

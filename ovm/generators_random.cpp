@@ -3,6 +3,7 @@
 #include <random>
 
 #include "ovm/detail/guarded_smoothing.h"
+#include "ovm/detail/sort_unique.h"
 #include "ovm/edit/insert_sheet.h"
 #include "ovm/generators.h"
 #include "ovm/neighborhood.h"
@@ -50,8 +51,7 @@ bool settle(HexMesh& mesh, const SheetInsertion& pillow) {
     const auto& corners = mesh.vertices(c);
     vertices.insert(vertices.end(), corners.begin(), corners.end());
   }
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  detail::sort_unique(vertices);
   std::erase_if(vertices, [&](VertexHandle v) { return mesh.is_boundary(v); });
   for (int i = 0; i < 3; ++i) {
     for (VertexHandle v : vertices) {

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "ovm/errors.h"
-#include "ovm/quality.h"
 #include "simplify/coarsen.h"
 #include "simplify/refine.h"
 

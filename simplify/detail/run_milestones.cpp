@@ -1,7 +1,6 @@
 // Meshes of a run that may be written: looking whether one may, going back to one, and which of two
 // outcomes is the better.
 #include "optimize/hausdorff.h"
-#include "ovm/neighborhood.h"
 #include "ovm/quality.h"
 #include "ovm/topology_check.h"
 #include "simplify/detail/run.h"
