@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <memory>
+#include <numeric>
 #include <queue>
 #include <tuple>
 #include <utility>
@@ -39,7 +41,8 @@ class Assignment {
         reached_(points.cols()),
         labels_(points.cols()) {}
 
-  std::vector<FeatureLabel> run();
+  /// \param ids  what `known` knows the points by
+  std::vector<FeatureLabel> run(std::span<const int> ids, NearLines& known);
 
  private:
   struct Reached {
@@ -48,7 +51,7 @@ class Assignment {
     bool done = false;
   };
 
-  bool find_near_lines();
+  bool find_near_lines(std::span<const int> ids, NearLines& known);
   void claim_corners();
   const CurvePoint* near(int v, int line) const;
   bool follows(int v, int line) const;
@@ -67,19 +70,20 @@ class Assignment {
   int n_free_;
   const FeatureCurves& curves_;
   PatchGraph graph_;
-  std::vector<std::vector<CurvePoint>> near_;  // lines near each vertex
-  std::vector<std::vector<int>> near_line_;    // vertices near each line, ascending
-  std::vector<int> vertex_of_corner_;          // -1: not claimed
-  std::vector<Reached> reached_;               // of a search; between searches as at the start
-  std::vector<int> touched_;                   // by a search
+  std::vector<std::span<const CurvePoint>> near_;  // lines near each vertex
+  std::vector<std::vector<int>> near_line_;        // vertices near each line, ascending
+  std::vector<int> vertex_of_corner_;              // -1: not claimed
+  std::vector<Reached> reached_;                   // of a search; between searches as at the start
+  std::vector<int> touched_;                       // by a search
   std::vector<FeatureLabel> labels_;
 };
 
-bool Assignment::find_near_lines() {
+bool Assignment::find_near_lines(std::span<const int> ids, NearLines& known) {
+  if (!ids.empty()) known.make_room(*std::max_element(ids.begin(), ids.end()) + 1);
   bool any = false;
   for (int v = 0; v < points_.cols(); ++v) {
     if (graph_.mean_length(v) == 0) continue;
-    near_[v] = curves_.within(points_.col(v), kReach * graph_.mean_length(v));
+    near_[v] = known.near(ids[v], points_.col(v), kReach * graph_.mean_length(v), curves_);
     for (const CurvePoint& c : near_[v]) near_line_[c.line].push_back(v);
     any |= !near_[v].empty();
   }
@@ -89,7 +93,7 @@ bool Assignment::find_near_lines() {
 const CurvePoint* Assignment::near(int v, int line) const {
   const auto at = std::find_if(near_[v].begin(), near_[v].end(),
                                [&](const CurvePoint& c) { return c.line == line; });
-  return at == near_[v].end() ? nullptr : &*at;
+  return at == near_[v].end() ? nullptr : std::to_address(at);
 }
 
 /// Nearest pairs first, each corner and each vertex once.
@@ -232,8 +236,8 @@ void Assignment::follow(int line) {
   }
 }
 
-std::vector<FeatureLabel> Assignment::run() {
-  if (!find_near_lines()) return std::move(labels_);
+std::vector<FeatureLabel> Assignment::run(std::span<const int> ids, NearLines& known) {
+  if (!find_near_lines(ids, known)) return std::move(labels_);
   claim_corners();
   for (int line = 0; line < curves_.n_lines(); ++line) follow(line);
   return std::move(labels_);
@@ -241,33 +245,55 @@ std::vector<FeatureLabel> Assignment::run() {
 
 }  // namespace
 
+void NearLines::make_room(int n) {
+  if (n > std::ssize(entries_)) entries_.resize(n);
+}
+
+std::span<const CurvePoint> NearLines::near(int v, const Eigen::Vector3d& point, double reach,
+                                            const FeatureCurves& curves) {
+  Entry& e = entries_[v];
+  if (e.reach != reach || e.point != point) e = {point, reach, curves.within(point, reach)};
+  return e.lines;
+}
+
 std::vector<FeatureLabel> assign_features(const Eigen::Matrix3Xd& points,
                                           std::span<const std::array<int, 4>> quads, int n_free,
                                           const ReferenceSurface& reference) {
   if (reference.curves().n_lines() == 0) return std::vector<FeatureLabel>(points.cols());
-  return Assignment(points, quads, n_free, reference.curves()).run();
+  std::vector<int> ids(points.cols());
+  std::iota(ids.begin(), ids.end(), 0);
+  NearLines unknown;
+  return Assignment(points, quads, n_free, reference.curves()).run(ids, unknown);
 }
 
 std::vector<FeatureLabel> feature_of(const ReferenceSurface& reference, const HexMesh& mesh) {
+  NearLines unknown;
+  return feature_of(reference, mesh, unknown);
+}
+
+std::vector<FeatureLabel> feature_of(const ReferenceSurface& reference, const HexMesh& mesh,
+                                     NearLines& known) {
   std::vector<FeatureLabel> result(mesh.vertex_slots());
   if (reference.curves().n_lines() == 0) return result;
   std::vector<int> local(mesh.vertex_slots(), -1);
-  std::vector<VertexHandle> vertices;
+  std::vector<int> vertices;  // by handle
   std::vector<std::array<int, 4>> quads;
   for (HalfFaceHandle hf : mesh.boundary_halffaces()) {
     std::array<int, 4>& quad = quads.emplace_back();
     for (int i = 0; VertexHandle v : mesh.vertices(hf)) {
       if (local[v.idx] < 0) {
         local[v.idx] = static_cast<int>(vertices.size());
-        vertices.push_back(v);
+        vertices.push_back(v.idx);
       }
       quad[i++] = local[v.idx];
     }
   }
-  Eigen::Matrix3Xd points(3, vertices.size());
-  for (std::size_t i = 0; i < vertices.size(); ++i) points.col(i) = mesh.point(vertices[i]);
-  const auto labels = assign_features(points, quads, static_cast<int>(points.cols()), reference);
-  for (std::size_t i = 0; i < vertices.size(); ++i) result[vertices[i].idx] = labels[i];
+  const auto n = static_cast<int>(vertices.size());
+  Eigen::Matrix3Xd points(3, n);
+  for (int i = 0; i < n; ++i) points.col(i) = mesh.point(VertexHandle(vertices[i]));
+  const std::vector<FeatureLabel> labels =
+      Assignment(points, quads, n, reference.curves()).run(vertices, known);
+  for (int i = 0; i < n; ++i) result[vertices[i]] = labels[i];
   return result;
 }
 

@@ -12,6 +12,7 @@
 
 #include <Eigen/Core>
 
+#include "optimize/feature_curves.h"
 #include "optimize/reference_surface.h"
 
 namespace hexweft {
@@ -28,6 +29,25 @@ struct FeatureLabel {
   friend bool operator==(const FeatureLabel&, const FeatureLabel&) = default;
 };
 
+/// The feature lines near each of some vertices, found anew only for those that have moved since.
+class NearLines {
+ public:
+  /// \param n  vertices to come are less than this
+  void make_room(int n);
+  /// \param reach  > 0, model units
+  /// \return until make_room()
+  std::span<const CurvePoint> near(int v, const Eigen::Vector3d& point, double reach,
+                                   const FeatureCurves& curves);
+
+ private:
+  struct Entry {
+    Eigen::Vector3d point = Eigen::Vector3d::Zero();
+    double reach = 0;  // 0: not looked for yet
+    std::vector<CurvePoint> lines = {};
+  };
+  std::vector<Entry> entries_;
+};
+
 /// Each corner of the reference is claimed by the nearest vertex, if it is within an edge's length.
 /// Each line is followed by the chain of boundary edges between its corners that stays closest to
 /// it, mesh edges that are bent themselves first; a line of which no chain stays within an edge's
@@ -41,6 +61,11 @@ struct FeatureLabel {
 /// boundary vertex.
 /// \return by vertex handle, vertex_slots() of them; inner vertices have no feature
 std::vector<FeatureLabel> feature_of(const ReferenceSurface& reference, const HexMesh& mesh);
+
+/// The same, for a mesh that is looked at again and again.
+/// \param known  at first empty, then as it was left here; always with the same reference
+std::vector<FeatureLabel> feature_of(const ReferenceSurface& reference, const HexMesh& mesh,
+                                     NearLines& known);
 
 /// The same for a part of a boundary.
 /// \param points  3 × #points, model units

@@ -89,10 +89,18 @@ void FeatureCurves::look_at(int line, const Eigen::Vector3d& p, CurvePoint& best
   }
 }
 
-CurvePoint FeatureCurves::closest(const Eigen::Vector3d& p) const {
+std::vector<int> FeatureCurves::lines_near(const Eigen::Vector3d& p, double reach) const {
+  Nearby nearby{p, reach};
+  if (n_lines() > 0) Eigen::BVIntersect(stretches_, nearby);
+  detail::sort_unique(nearby.lines);
+  return std::move(nearby.lines);
+}
+
+CurvePoint FeatureCurves::closest_within(const Eigen::Vector3d& p, double reach) const {
   CurvePoint best;
-  for (int line = 0; line < n_lines(); ++line) look_at(line, p, best);
-  return best;
+  best.distance = reach;
+  for (const int line : lines_near(p, reach)) look_at(line, p, best);
+  return best.line < 0 ? CurvePoint() : best;
 }
 
 CurvePoint FeatureCurves::closest(const Eigen::Vector3d& p, int line) const {
@@ -102,12 +110,8 @@ CurvePoint FeatureCurves::closest(const Eigen::Vector3d& p, int line) const {
 }
 
 std::vector<CurvePoint> FeatureCurves::within(const Eigen::Vector3d& p, double reach) const {
-  Nearby nearby{p, reach};
-  if (n_lines() > 0) Eigen::BVIntersect(stretches_, nearby);
-  std::vector<int>& lines = nearby.lines;
-  detail::sort_unique(lines);
   std::vector<CurvePoint> found;
-  for (const int line : lines) {
+  for (const int line : lines_near(p, reach)) {
     CurvePoint best;
     best.distance = reach;
     look_at(line, p, best);

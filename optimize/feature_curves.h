@@ -38,8 +38,9 @@ class FeatureCurves {
   /// Corners at the first and the last point of an open line; -1 for a closed one.
   const std::array<int, 2>& ends(int line) const { return curves_[line].ends; }
 
-  CurvePoint closest(const Eigen::Vector3d& p) const;
   CurvePoint closest(const Eigen::Vector3d& p, int line) const;
+  /// Of the lines within reach (model units).
+  CurvePoint closest_within(const Eigen::Vector3d& p, double reach) const;
   /// The closest point of each line within reach (model units), lines ascending.
   std::vector<CurvePoint> within(const Eigen::Vector3d& p, double reach) const;
   CurvePoint at(int line, double arc) const;  ///< \param arc  in [0, length(line)]
@@ -52,6 +53,8 @@ class FeatureCurves {
     Eigen::AlignedBox3d box;
     std::array<int, 2> ends = {-1, -1};
   };
+  /// Those of which a box is within reach, ascending.
+  std::vector<int> lines_near(const Eigen::Vector3d& p, double reach) const;
   void look_at(int line, const Eigen::Vector3d& p, CurvePoint& best) const;
 
   SurfaceFeatures features_;

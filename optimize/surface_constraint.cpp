@@ -150,15 +150,23 @@ SurfaceGoal goal_on(const TangentPlanes& planes, int vertex, const Eigen::Vector
 /// they themselves belong to a face.
 void leave_to_chains(const Region& region, const FeatureCurves& curves,
                      const std::vector<FeatureLabel>& labels, std::vector<char>& at_feature) {
+  constexpr double kRounding = 1e-9;  // of the line's length
   for (const auto& q : region.quads) {
-    if (std::none_of(q.begin(), q.end(), [&](int v) { return labels[v].is_any(); })) continue;
+    const bool has_corner =
+        std::any_of(q.begin(), q.end(), [&](int v) { return labels[v].is_corner(); });
+    const auto on_line =
+        std::find_if(q.begin(), q.end(), [&](int v) { return labels[v].is_line(); });
+    if (!has_corner && on_line == q.end()) continue;
     for (int v : q) {
       if (!at_feature[v]) continue;
-      const int nearest = curves.closest(region.points.col(v)).line;
-      const auto runs_here = [&](int w) {
-        return labels[w].is_corner() || labels[w].line == nearest;
+      const auto nearest_runs_here = [&] {
+        const Eigen::Vector3d p = region.points.col(v);
+        const int line = labels[*on_line].line;
+        const double reach = curves.closest(p, line).distance + kRounding * curves.length(line);
+        const int nearest = curves.closest_within(p, reach).line;
+        return std::any_of(q.begin(), q.end(), [&](int w) { return labels[w].line == nearest; });
       };
-      if (std::any_of(q.begin(), q.end(), runs_here)) at_feature[v] = 0;
+      if (has_corner || nearest_runs_here()) at_feature[v] = 0;
     }
   }
 }

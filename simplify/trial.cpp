@@ -159,7 +159,7 @@ bool ends_simpler(TrialContext& context, std::size_t n_before, TrialResult& resu
 }  // namespace
 
 const std::vector<FeatureLabel>& TrialContext::feature_labels() {
-  if (!labels) labels = feature_of(reference, mesh);
+  if (!labels) labels = feature_of(reference, mesh, near_lines);
   return *labels;
 }
 

@@ -35,6 +35,7 @@ struct TrialContext {
   /// Features of the mesh's vertices, once they have been asked for. Like the graph that
   /// try_collapse_locally() is given they may be out of date where the mesh has changed since.
   std::optional<std::vector<FeatureLabel>> labels = {};
+  NearLines near_lines = {};  ///< where the features were asked for
   const std::vector<FeatureLabel>& feature_labels();
 };
 

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "ovm/dual.h"
+#include "ovm/edit/split_sheet.h"
 #include "tests/optimize/test_meshes.h"
 
 namespace hexweft {
@@ -35,7 +37,7 @@ TEST(FeatureAssignment, EveryVertexOnAnEdgeOfACubeHasItsLine) {
     EXPECT_EQ(labels[v.idx].is_corner(), at_end == 3);
     EXPECT_EQ(labels[v.idx].is_line(), at_end == 2);
     if (at_end < 2) continue;
-    EXPECT_LT(reference.curves().closest(cube.point(v)).distance, 1e-15);
+    EXPECT_LT(reference.curves().closest_within(cube.point(v), 1).distance, 1e-15);
   }
 }
 
@@ -87,6 +89,30 @@ TEST(FeatureAssignment, PassesOverDeletedVertices) {
   const auto labels = feature_of(reference, cube);
   EXPECT_EQ(static_cast<int>(labels.size()), cube.vertex_slots());
   EXPECT_EQ(count(labels).corners, 7);
+}
+
+TEST(FeatureAssignment, WhatWasKnownOfAMeshBeforeMakesNoDifference) {
+  for (HexMesh mesh : {make_l_shape(4), make_o_grid({.n_core = 4, .n_layers = 4}),
+                       make_torus({.n_around = 24, .round_section = false})}) {
+    const ReferenceSurface reference = make_reference_surface(mesh);
+    NearLines known;
+    const auto expect_no_difference = [&] {
+      const auto labels = feature_of(reference, mesh, known);
+      EXPECT_GT(count(labels).lines, 0);
+      EXPECT_EQ(labels, feature_of(reference, mesh));
+    };
+    expect_no_difference();
+    expect_no_difference();
+    Random random(8);
+    for (const VertexHandle v : mesh.vertices()) {
+      if (v.idx % 3 == 0) mesh.set_point(v, mesh.point(v) + 0.02 * random.in_cube(1));
+    }
+    expect_no_difference();
+    split_sheet(mesh, dual_sheet(mesh, EdgeHandle(0)));
+    expect_no_difference();
+    mesh.collect_garbage();  // others have their handles now
+    expect_no_difference();
+  }
 }
 
 TEST(FeatureAssignment, LinesGoOnBeyondTheRimOfARegion) {

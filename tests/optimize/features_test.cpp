@@ -155,7 +155,8 @@ TEST(FeatureCurves, ClosestPointsAreTheBruteForceOnes) {
       EXPECT_NEAR(c.tangent.norm(), 1, 1e-12);
       best = std::min(best, c.distance);
     }
-    EXPECT_EQ(curves.closest(p).distance, best);
+    EXPECT_EQ(curves.closest_within(p, 2 * best).distance, best);
+    EXPECT_EQ(curves.closest_within(p, 0.99 * best).line, -1);
     const double reach = 0.7;
     EXPECT_EQ(curves.within(p, reach).empty(), best >= reach);
   }
@@ -187,7 +188,7 @@ TEST(FeatureCurves, WithinReachIsEveryLineThatIsSoClose) {
 
 TEST(FeatureCurves, AreEmptyWithoutFeatures) {
   const ReferenceSurface s = make_reference_surface(make_ball(6));
-  EXPECT_EQ(s.curves().closest({1, 0, 0}).line, -1);
+  EXPECT_EQ(s.curves().closest_within({1, 0, 0}, 10).line, -1);
   EXPECT_TRUE(s.curves().within({1, 0, 0}, 10).empty());
 }
 
