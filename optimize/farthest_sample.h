@@ -84,6 +84,7 @@ class FarthestSample {
     constexpr double kNear =
         0.25;  // of the farthest: what is nearer lets large parts be passed over
     const FoundDistance found = distance_(p, kNear * farthest_);
+    if (found.distance > farthest_ || !at_) at_ = p;
     farthest_ = std::max(farthest_, found.distance);
     return {p, found.distance, found.piece};
   }
@@ -104,6 +105,8 @@ class FarthestSample {
   }
 
   double distance() const { return farthest_; }
+  /// The sample that is so far; if that is not more than `at_least`, the first of all.
+  const std::optional<Eigen::Vector3d>& at() const { return at_; }
 
  private:
   static double radius(const Sample& a, const Sample& b, const Sample& c) {
@@ -129,6 +132,7 @@ class FarthestSample {
   Distance distance_;
   Covers covers_;
   double farthest_, enough_, resolution_;
+  std::optional<Eigen::Vector3d> at_;
 };
 
 /// Corners that triangles share: each is looked at once, when it is first asked for.

@@ -34,6 +34,12 @@ void check(const HausdorffOptions& o) {
 /// Where no limit is asked for: that of the limit most have.
 double usual_resolution(double diagonal) { return resolution_for(0.01 * diagonal, diagonal); }
 
+/// Its feature lines have no say in a distance.
+ReferenceSurface boundary_of(const HexMesh& mesh) {
+  constexpr double kNormalAngle = 40;  // nor have its normals
+  return make_reference_surface(mesh, kNormalAngle, {.mode = FeatureMode::off});
+}
+
 /// Subdivisions after which the parts' centroids are at least n.
 int levels_for(double n) {
   int levels = 0;
@@ -49,12 +55,11 @@ bool is_within(const HexMesh& mesh, const ReferenceSurface& reference, double li
   o.at_least = 0.999 * limit;
   o.enough = limit;
   if (!o.resolution) o.resolution = resolution_for(limit, reference.bounding_box_diagonal());
-  const ReferenceSurface surface = make_reference_surface(mesh);
-  return hausdorff_distance(surface, reference, o).distance() <= limit;
+  return hausdorff_distance(boundary_of(mesh), reference, o).distance() <= limit;
 }
 
-double one_sided_distance(const ReferenceSurface& from, const ReferenceSurface& to,
-                          const HausdorffOptions& options) {
+FarthestPoint farthest_point(const ReferenceSurface& from, const ReferenceSurface& to,
+                             const HausdorffOptions& options) {
   check(options);
   const auto& points = from.points();
   const auto& triangles = from.triangles();
@@ -80,22 +85,24 @@ double one_sided_distance(const ReferenceSurface& from, const ReferenceSurface& 
     farthest.look_at(corners[t[0]], corners[t[1]], corners[t[2]],
                      levels_for(std::max<double>(options.points_per_triangle, share)));
   }
-  return farthest.distance();
+  return {farthest.distance(), farthest.at().value_or(Eigen::Vector3d::Zero())};
 }
 
 HausdorffDistance hausdorff_distance(const ReferenceSurface& surface,
                                      const ReferenceSurface& reference,
                                      const HausdorffOptions& options) {
   const auto policy = options.parallel ? std::launch::async : std::launch::deferred;
-  auto backward =
-      std::async(policy, [&] { return one_sided_distance(reference, surface, options); });
-  const double forward = one_sided_distance(surface, reference, options);
-  return {forward, backward.get(), reference.bounding_box_diagonal()};
+  auto finding_back =
+      std::async(policy, [&] { return farthest_point(reference, surface, options); });
+  const FarthestPoint forward = farthest_point(surface, reference, options);
+  const FarthestPoint backward = finding_back.get();
+  return {forward.distance, backward.distance, reference.bounding_box_diagonal(), forward.point,
+          backward.point};
 }
 
 HausdorffDistance hausdorff_distance(const HexMesh& mesh, const ReferenceSurface& reference,
                                      const HausdorffOptions& options) {
-  return hausdorff_distance(make_reference_surface(mesh), reference, options);
+  return hausdorff_distance(boundary_of(mesh), reference, options);
 }
 
 }  // namespace hexweft

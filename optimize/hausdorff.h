@@ -37,15 +37,21 @@ struct HausdorffDistance {
   double forward = 0;   ///< largest distance of a sample of the first surface to the second
   double backward = 0;  ///< largest distance of a sample of the second surface to the first
   double diagonal = 1;  ///< of the second surface's bounding box
+  Eigen::Vector3d forward_at = Eigen::Vector3d::Zero();   ///< such a sample of the first surface
+  Eigen::Vector3d backward_at = Eigen::Vector3d::Zero();  ///< such a sample of the second
   double distance() const { return forward > backward ? forward : backward; }
   double ratio() const { return distance() / diagonal; }  ///< the "HR" of the mesh
 };
 
-/// Largest distance from a sample of `from` to `to`. Samples that cannot be the farthest, because a
-/// sample near them is close, are passed over; the result is the same.
+struct FarthestPoint {
+  double distance = 0;  ///< model units
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+};
+/// The sample of `from` that is farthest from `to`. Samples that cannot be, because a sample near them
+/// is close, are passed over; the result is the same.
 /// \throws InputError on bad options
-double one_sided_distance(const ReferenceSurface& from, const ReferenceSurface& to,
-                          const HausdorffOptions& options = {});
+FarthestPoint farthest_point(const ReferenceSurface& from, const ReferenceSurface& to,
+                             const HausdorffOptions& options = {});
 
 HausdorffDistance hausdorff_distance(const ReferenceSurface& surface,
                                      const ReferenceSurface& reference,

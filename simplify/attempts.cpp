@@ -31,8 +31,10 @@ bool is_better(const SimplifyReport& a, const SimplifyReport& b) {
 
 class Attempts {
  public:
-  Attempts(const HexMesh& mesh, const ReferenceSurface& reference, const SimplifyOptions& options)
-      : mesh_(mesh), reference_(reference), options_(options) {}
+  using Clock = std::chrono::steady_clock;
+  Attempts(const HexMesh& mesh, const ReferenceSurface& reference, const SimplifyOptions& options,
+           Clock::time_point start)
+      : mesh_(mesh), reference_(reference), options_(options), start_(start) {}
 
   Outcome run() {
     {
@@ -109,14 +111,12 @@ class Attempts {
     if (!best_ || is_better(r, best_->report)) best_ = std::move(outcome);
   }
 
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
   const HexMesh& mesh_;
   const ReferenceSurface& reference_;
   const SimplifyOptions& options_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  Clock::time_point start_;
   std::atomic<int> next_ = 0;
   std::mutex mutex_, observer_mutex_;
   std::optional<Outcome> best_;
@@ -140,8 +140,9 @@ RankingWeights weights_of_attempt(const RankingWeights& weights, int attempt) {
 }
 
 Outcome best_of_attempts(const HexMesh& mesh, const ReferenceSurface& reference,
-                         const SimplifyOptions& options) {
-  return Attempts(mesh, reference, options).run();
+                         const SimplifyOptions& options,
+                         std::chrono::steady_clock::time_point start) {
+  return Attempts(mesh, reference, options, start).run();
 }
 
 }  // namespace hexweft

@@ -3,6 +3,8 @@
 /// steps that no ranking can tell apart: other weights, however near, lead elsewhere.
 #pragma once
 
+#include <chrono>
+
 #include "optimize/reference_surface.h"
 #include "simplify/options.h"
 #include "simplify/report.h"
@@ -25,8 +27,10 @@ RankingWeights weights_of_attempt(const RankingWeights& weights, int attempt);
 /// depend on that unless the run is stopped or out of time.
 /// \param mesh       as simplify() takes it, without inverted cells
 /// \param reference  the surface of the input
+/// \param start      from when on the time of all together counts
 /// \throws InputError if the base complex of the mesh is not regular
-Outcome best_of_attempts(const HexMesh& mesh, const ReferenceSurface& reference,
-                         const SimplifyOptions& options);
+Outcome best_of_attempts(
+    const HexMesh& mesh, const ReferenceSurface& reference, const SimplifyOptions& options,
+    std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now());
 
 }  // namespace hexweft

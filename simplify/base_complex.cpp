@@ -74,23 +74,26 @@ class Extractor {
 
   void run() {
     RingCutter(mesh_, cuts_).run();
-    bc_.component_of_cell.assign(mesh_.cell_slots(), -1);
+    bc_.component_of_cell.assign(mesh_.cell_slots(), kNone);
     bc_.base_edge_of_edge.assign(mesh_.edge_slots(), -1);
     base_vertex_.assign(mesh_.vertex_slots(), -1);
     base_face_.assign(mesh_.face_slots(), -1);
     bc_.grid_cells.reserve(mesh_.n_cells());
     for (CellHandle c : mesh_.cells()) {
-      if (bc_.component_of_cell[c.idx] == -1) add_component(c);
+      if (bc_.component_of_cell[c.idx] == kNone) add_component(c);
     }
+    if (bc_.irregular > 0)
+      std::replace(bc_.component_of_cell.begin(), bc_.component_of_cell.end(), kLeftOut, kNone);
   }
 
  private:
+  static constexpr int kNone = -1, kLeftOut = -2;  // not looked at yet; belongs to no component
+
   void add_component(CellHandle seed) {
     const auto corner = corner_frame(seed);
     Component comp;
     if (!corner || !fill_grid(*corner, comp)) {
-      ++bc_.irregular;
-      bc_.component_of_cell[seed.idx] = -2;
+      leave_out({&seed, 1});
       return;
     }
     add_vertices(comp);
@@ -100,11 +103,16 @@ class Extractor {
     for (int e = 0; e < 12; ++e) conforming &= (comp.edges[e] = base_edge(comp, e)) >= 0;
     for (int s = 0; s < 6; ++s) conforming &= (comp.faces[s] = base_face(comp, s, id)) >= 0;
     if (!conforming) {
-      ++bc_.irregular;
+      leave_out(bc_.cells(comp));
       return;
     }
     for (CellHandle c : bc_.cells(comp)) bc_.component_of_cell[c.idx] = id;
     bc_.components.push_back(comp);
+  }
+
+  void leave_out(std::span<const CellHandle> cells) {
+    ++bc_.irregular;
+    for (CellHandle c : cells) bc_.component_of_cell[c.idx] = kLeftOut;
   }
 
   std::optional<CellFrame> corner_frame(CellHandle seed) const {
@@ -137,7 +145,7 @@ class Extractor {
   // A cell of the grid has walls exactly at the grid's ends.
   bool add_grid_cell(const Component& comp, const CellFrame& f, int i, int j, int k) {
     const std::array<int, 3> at = {i, j, k};
-    bool fits = bc_.component_of_cell[f.cell.idx] == -1;
+    bool fits = bc_.component_of_cell[f.cell.idx] == kNone;
     for (int a = 0; a < 3 && fits; ++a) {
       fits = cuts_.is_wall(halfface(mesh_, f, a, 0)) == (at[a] == 0) &&
              cuts_.is_wall(halfface(mesh_, f, a, 1)) == (at[a] + 1 == comp.n[a]);

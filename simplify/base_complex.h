@@ -57,8 +57,8 @@ struct BaseComplex {
   std::vector<BaseEdge> edges;         ///< B_E
   std::vector<BaseFace> faces;         ///< B_F
   std::vector<Component> components;   ///< B_C
-  /// Regions that are no structured grid, or do not meet their neighbours side to side. 0 on every
-  /// mesh this project writes; where it is not, `components` has only the regular ones.
+  /// Cells that belong to no structured grid, and grids that do not meet their neighbours side to side.
+  /// 0 on every mesh this project writes; where it is not, `components` has only the regular ones.
   int irregular = 0;
 
   std::vector<VertexHandle> edge_vertices;  ///< pool of BaseEdge chains

@@ -27,6 +27,7 @@ struct SimplifyOptions;
 struct RunState {
   int step = 0;  ///< 0: the mesh is the input still
   int failed_in_a_row = 0;
+  bool smoothed = false;  ///< what is left are goes from the smoothed mesh
   double distance_share =
       1;                    ///< (0, 1] of the Hausdorff limit, which the loop keeps at its sampling
   double target_cells = 1;  ///< > 0, the count of cells that the loop keeps near

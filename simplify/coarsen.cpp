@@ -80,6 +80,7 @@ bool try_coarsen(TrialContext& context, const SingularityGraph& graph, const Col
   strict.final_limit *= kNegligible;
   // A layer that goes changes no shape by much, as one that is split off.
   SimplifyOptions quick = options;
+  quick.splits_per_trial = 0;
   quick.rings = (options.rings + 1) / 2;
   quick.parametrization.max_iterations = 2;
   return try_collapse_locally(strict, graph, layer, quick).accepted();

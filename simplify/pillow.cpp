@@ -81,6 +81,11 @@ std::optional<Pillow> smallest_pillow(const HexMesh& mesh, const BaseComplex& bc
 
 namespace {
 
+bool is_inside(const BaseComplex& bc, const Pillow& pillow, CellHandle cell) {
+  return std::binary_search(pillow.inside.begin(), pillow.inside.end(),
+                            bc.component_of_cell[cell.idx]);
+}
+
 // The copies that a layer has given its inside, by the index of the vertex as it was.
 std::unordered_map<int, VertexHandle> inner_copies(const SheetInsertion& layer) {
   std::unordered_map<int, VertexHandle> inner;
@@ -122,14 +127,23 @@ std::vector<CellHandle> replaced(std::vector<CellHandle> cells, const SheetInser
 
 }  // namespace
 
+std::vector<VertexHandle> wall_of(const HexMesh& mesh, const BaseComplex& bc,
+                                  const Pillow& pillow) {
+  std::vector<VertexHandle> wall;
+  for (VertexHandle v : mesh.vertices()) {
+    bool has_inside = false, has_outside = false;
+    for (CellHandle c : mesh.cells(v)) (is_inside(bc, pillow, c) ? has_inside : has_outside) = true;
+    if (has_inside && has_outside) wall.push_back(v);
+  }
+  return wall;
+}
+
 std::optional<InsertedPillow> insert_pillow(HexMesh& mesh, const BaseComplex& bc,
                                             const Sheet& sheet, const CollapsePlan& plan,
                                             const Pillow& pillow) {
-  std::vector<char> is_inside(bc.components.size(), 0);
-  for (int c : pillow.inside) is_inside[c] = 1;
   std::vector<CellHandle> outside;
-  for (CellHandle cell : mesh.cells()) {
-    if (!is_inside[bc.component_of_cell[cell.idx]]) outside.push_back(cell);
+  for (CellHandle c : mesh.cells()) {
+    if (!is_inside(bc, pillow, c)) outside.push_back(c);
   }
   InsertedPillow result;
   result.layer = insert_sheet(mesh, outside);

@@ -42,6 +42,9 @@ std::optional<Pillow> smallest_pillow(const HexMesh& mesh, const BaseComplex& bc
                                       const Sheet& sheet, const CollapsePlan& plan,
                                       std::span<const int> groups, int side);
 
+/// The vertices that a pillow is put in at: between its inside and the rest.
+std::vector<VertexHandle> wall_of(const HexMesh& mesh, const BaseComplex& bc, const Pillow& pillow);
+
 /// The components that a sheet crosses, ascending.
 std::vector<int> components_of(const Sheet& sheet);
 

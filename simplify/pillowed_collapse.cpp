@@ -2,21 +2,31 @@
 
 #include <algorithm>
 
-#include "ovm/neighborhood.h"
+#include "simplify/region_relaxation.h"
 
 namespace hexweft {
+namespace {
+
+Quality quality_round(const HexMesh& mesh, const BaseComplex& bc, const CollapsePlan& plan,
+                      const Pillow& pillow, const SimplifyOptions& options) {
+  std::vector<VertexHandle> vertices = wall_of(mesh, bc, pillow);
+  vertices.insert(vertices.end(), plan.members.begin(), plan.members.end());
+  return measure_quality(mesh, cells_around(mesh, vertices, rings_round(plan, options)));
+}
+
+}  // namespace
 
 TrialResult try_pillowed_collapse(TrialContext& context, const BaseComplex& bc, const Sheet& sheet,
                                   const Pillow& pillow, const SimplifyOptions& options) {
   HexMesh& mesh = context.mesh;
   const int most_cells = std::max(context.most_cells, mesh.n_cells());
   const auto n_before = static_cast<int>(bc.components.size());
+  const CollapsePlan plan = plan_sheet_collapse(mesh, bc, sheet);
   EarlierEdit edit;
-  edit.quality = measure_quality(mesh, all_cells(mesh));
+  edit.quality = quality_round(mesh, bc, plan, pillow, options);
   TrialResult result;
   Transaction trial(mesh);
-  const auto inserted =
-      insert_pillow(mesh, bc, sheet, plan_sheet_collapse(mesh, bc, sheet), pillow);
+  const auto inserted = insert_pillow(mesh, bc, sheet, plan, pillow);
   const int n_cells =
       mesh.n_cells() - static_cast<int>(inserted ? inserted->plan.removed.size() : 0);
   if (!inserted || n_cells > most_cells) {

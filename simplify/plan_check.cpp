@@ -162,6 +162,21 @@ double angle_at(const HexMesh& mesh, const PredictedEdge& e, const Merging& m,
   return 180 - (convex ? turn : -turn) * 180 / std::numbers::pi;
 }
 
+// The edges of cells that go which keep both ends lose these cells: those on a chord's other diagonal.
+// What a peel takes away lies outside of the surface then.
+bool leaves_too_few(const HexMesh& mesh, const SingularityGraph& graph, const Merging& m,
+                    const ValenceLimits& limits) {
+  if (m.plan.peels) return false;
+  for (CellHandle c : m.plan.removed) {
+    for (EdgeHandle e : mesh.edges(c)) {
+      const auto [a, b] = mesh.vertices(e);
+      if (m.group_of[a.idx] >= 0 || m.group_of[b.idx] >= 0) continue;
+      if (!within(survivor(mesh, graph, m, e, a, b), limits)) return true;
+    }
+  }
+  return false;
+}
+
 // A cell alone at a boundary edge fills the whole angle there: on a smooth surface it is flat.
 bool opens_too_wide(const HexMesh& mesh, const SingularityGraph& graph, const Merging& m,
                     const std::vector<PredictedEdge>& newly_alone, double max_angle_deg) {
@@ -217,6 +232,7 @@ Refusal check_plan(const HexMesh& mesh, const SingularityGraph& graph, const Col
     return refusal == Refusal::none;
   };
   if (!for_each_predicted(mesh, graph, merging, fits)) return refusal;
+  if (leaves_too_few(mesh, graph, merging, limits)) return Refusal::valence;
   if (limits.max_angle_deg < 360 &&
       opens_too_wide(mesh, graph, merging, newly_alone, limits.max_angle_deg))
     return Refusal::angle;

@@ -69,7 +69,7 @@ nlohmann::ordered_json Profile::json() const {
   return j;
 }
 
-StageClock::StageClock(Stage first) : stage_(first), since_(Clock::now()) {
+StageClock::StageClock(Stage first, Clock::time_point since) : stage_(first), since_(since) {
   profile_[first].entered = 1;
 }
 

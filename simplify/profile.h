@@ -20,7 +20,7 @@ namespace hexweft {
 
 enum class Stage {
   other,
-  preparation,      ///< the reference surface and the figures of the input
+  preparation,      ///< the reference surface, untangling and the figures of the input
   base_complex,     ///< where it is extracted anew
   ranking,          ///< sheets, chords and peels, their terms and cheap filters
   planning,         ///< which vertices a candidate would merge
@@ -59,13 +59,14 @@ struct Profile {
 /// Counts the time for the stage it is in. Changing it costs one look at the clock.
 class StageClock {
  public:
-  explicit StageClock(Stage first = Stage::other);
+  using Clock = std::chrono::steady_clock;
+  /// \param since  when the first stage began
+  explicit StageClock(Stage first = Stage::other, Clock::time_point since = Clock::now());
   Stage enter(Stage stage);   ///< \return the stage before
   void back_to(Stage stage);  ///< as enter(), but not counted as entered again
   const Profile& profile();   ///< up to now
 
  private:
-  using Clock = std::chrono::steady_clock;
   void charge();
 
   Profile profile_;

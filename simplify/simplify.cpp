@@ -65,6 +65,7 @@ void untangle_input(HexMesh& mesh, const ReferenceSurface& reference,
 SimplifyReport run_on(HexMesh& mesh, const Checkpoint* from, const SimplifyOptions& options) {
   // Normals are averaged across edges less sharp than this; it has no say in what is a feature line.
   constexpr double kNormalAngle = 40;
+  const auto start = detail::Run::Clock::now();
   validate(options);
   check_mesh(mesh, "the mesh");
   if (from) {
@@ -79,9 +80,9 @@ SimplifyReport run_on(HexMesh& mesh, const Checkpoint* from, const SimplifyOptio
   const bool tangled = first_inverted(mesh).valid();
   if (tangled) untangle_input(outcome.mesh, reference, options);
   if (options.attempts > 1) {
-    outcome = best_of_attempts(outcome.mesh, reference, options);
+    outcome = best_of_attempts(outcome.mesh, reference, options, start);
   } else {
-    detail::Run run(outcome.mesh, reference, options);
+    detail::Run run(outcome.mesh, reference, options, start);
     if (from) run.go_on_from(*from);
     outcome.report = run.run();
   }

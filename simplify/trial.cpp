@@ -169,6 +169,7 @@ void commit(TrialContext& context, Transaction& change) {
 }
 
 Quality measure_quality(const HexMesh& mesh, std::span<const CellHandle> cells) {
+  if (cells.empty()) return {};
   Quality q{1, 0};
   for (const double sj : scaled_jacobians(mesh, cells)) {
     q.least = std::min(q.least, sj);

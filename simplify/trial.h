@@ -39,7 +39,7 @@ struct TrialContext {
   const std::vector<FeatureLabel>& feature_labels();
 };
 
-/// Least and mean scaled Jacobian of some cells.
+/// Least and mean scaled Jacobian of some cells; of none 1.
 struct Quality {
   double least = 1, mean = 1;
 };

@@ -139,8 +139,10 @@ void Program::check_paths() const {
 }
 
 void Program::expect_apart(const std::string& option, const std::string& path) const {
-  const bool is_taken = is_same_file(path, input_path_) || is_same_file(path, output_path_) ||
-                        is_same_file(path, json_path_);
+  const bool is_taken = path == "-"
+                            ? output_path_ == "-" || json_path_ == "-"
+                            : is_same_file(path, input_path_) || is_same_file(path, output_path_) ||
+                                  is_same_file(path, json_path_);
   if (is_taken)
     throw InputError(option + " = " + path + ", expected another file than INPUT and the outputs");
 }
@@ -196,6 +198,8 @@ HexMesh Program::read_valid_mesh() {
 }
 
 ReferenceSurface Program::read_surface(const std::string& path, const FeatureOptions& features) {
+  if (is_same_file(json_path_, path))
+    throw InputError("--json = " + json_path_ + ", expected another file than the surface");
   std::vector<std::string> notes;
   ReferenceSurface surface = read_surface_input(path, notes, features);
   for (const std::string& text : notes) note(text);

@@ -70,10 +70,8 @@ class Program {
   /// Says on standard error in one sentence what failed. \return `code`
   int fail(int code, const std::string& message) const;
   void note(const std::string& text) const;  ///< a remark on standard error
-  /// \throws InputError if a file that is written on the way is one of INPUT, --output and --json
+  /// \throws InputError if a further file that is written is one of INPUT, --output and --json
   void expect_apart(const std::string& option, const std::string& path) const;
-  const std::string& input_path() const { return input_path_; }
-  const std::string& output_path() const { return output_path_; }
 
  private:
   void check_paths() const;

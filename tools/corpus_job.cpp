@@ -97,7 +97,9 @@ void fill_row(CorpusRow& row, const CorpusJob& job, const CorpusPrograms& progra
 }  // namespace
 
 std::string key_of(const CorpusJob& job, const CorpusPrograms& programs) {
-  std::string key = stamp(job.input) + " | " + stamp(programs.simplify);
+  std::string key = stamp(job.input);
+  for (const std::string& program : {programs.simplify, programs.info, programs.distance})
+    key += " | " + stamp(program);
   for (const std::string& option : job.options) key += " " + option;
   return key;
 }

@@ -3,7 +3,6 @@
 
 #include "optimize/hausdorff.h"
 #include "tools/cli.h"
-#include "tools/farthest_point.h"
 #include "tools/surface_input.h"
 
 namespace hexweft {
@@ -21,12 +20,13 @@ std::string text_of(const Eigen::Vector3d& p) {
   return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x(), p.y(), p.z());
 }
 
-Json to_json(const cli::FarthestPoint& f, double diagonal) {
+Json one_way(double distance, double diagonal, const Eigen::Vector3d& at,
+             const ReferenceSurface& to) {
   const auto triple = [](const Eigen::Vector3d& p) { return Json{p.x(), p.y(), p.z()}; };
-  return {{"distance", f.distance},
-          {"ratio", f.distance / diagonal},
-          {"at", triple(f.point)},
-          {"closest", triple(f.closest)}};
+  return {{"distance", distance},
+          {"ratio", distance / diagonal},
+          {"at", triple(at)},
+          {"closest", triple(to.closest(at).point)}};
 }
 
 int run(cli::Program& program, Request& request) {
@@ -36,20 +36,18 @@ int run(cli::Program& program, Request& request) {
   HausdorffOptions& options = request.options;
   options.parallel = request.threads > 1;
   const HausdorffDistance d = hausdorff_distance(a, b, options);
-  const cli::FarthestPoint there = cli::find_farthest_point(a, b, d.forward, options);
-  const cli::FarthestPoint back = cli::find_farthest_point(b, a, d.backward, options);
   program.write_json({{"distance", d.distance()},
                       {"diagonal", d.diagonal},
                       {"ratio", d.ratio()},
-                      {"forward", to_json(there, d.diagonal)},
-                      {"backward", to_json(back, d.diagonal)}});
+                      {"forward", one_way(d.forward, d.diagonal, d.forward_at, b)},
+                      {"backward", one_way(d.backward, d.diagonal, d.backward_at, a)}});
   if (program.wants_json()) return cli::kDone;
   const auto row = [&](const char* label, double distance, const std::string& where) {
     program.say(fmt::format("{:>16} {:>14.6g} {:>10.4f} %{}", label, distance,
                             100 * distance / d.diagonal, where));
   };
-  row("from A to B", d.forward, "  at " + text_of(there.point) + " of A");
-  row("from B to A", d.backward, "  at " + text_of(back.point) + " of B");
+  row("from A to B", d.forward, "  at " + text_of(d.forward_at) + " of A");
+  row("from B to A", d.backward, "  at " + text_of(d.backward_at) + " of B");
   row("both ways", d.distance(), "");
   program.say(fmt::format("{:>16} {:>14.6g}", "diagonal of B", d.diagonal));
   return cli::kDone;

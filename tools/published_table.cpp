@@ -15,10 +15,17 @@ struct CsvLine {
   std::vector<std::string> cells;
 };
 
+// A comma in quotes belongs to the cell, and two quotes there are one [RFC4180, §2].
 std::vector<std::string> split(const std::string& line) {
   std::vector<std::string> cells(1);
-  for (const char c : line) {
-    if (c == ',') {
+  bool quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    if (c == '"') {
+      const bool is_one = quoted && i + 1 < line.size() && line[i + 1] == '"';
+      if (is_one) cells.back() += line[++i];
+      quoted = is_one || !quoted;
+    } else if (c == ',' && !quoted) {
       cells.emplace_back();
     } else if (c != '\r') {
       cells.back() += c;

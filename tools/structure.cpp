@@ -182,6 +182,11 @@ int main(int argc, char** argv) {
                            "Write the base edges as VTK lines, with sheet and valence");
   program.add_json();
   return program.run(argc, argv, [&] {
+    program.expect_apart("--singular-edges", singular_path);
+    program.expect_apart("--base-edges", base_path);
+    if (!base_path.empty() &&
+        (base_path == singular_path || cli::is_same_file(base_path, singular_path)))
+      throw InputError("--base-edges = " + base_path + ", expected another than --singular-edges");
     for (const std::string& path : {singular_path, base_path}) {
       if (!path.empty()) check_writable(path);
     }

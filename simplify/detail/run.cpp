@@ -46,11 +46,12 @@ SimplifyOptions bold_options(SimplifyOptions options) {
 
 }  // namespace
 
-Run::Run(HexMesh& mesh, const ReferenceSurface& reference, const SimplifyOptions& options)
+Run::Run(HexMesh& mesh, const ReferenceSurface& reference, const SimplifyOptions& options,
+         Clock::time_point start)
     : mesh_(mesh),
       options_(options),
-      start_(Clock::now()),
-      clock_(Stage::preparation),
+      start_(start),
+      clock_(Stage::preparation, start),
       reference_(reference),
       distance_(mesh, reference_,
                 {.negligible = kNegligible * options.hausdorff_limit_rel *
@@ -67,7 +68,7 @@ Run::Run(HexMesh& mesh, const ReferenceSurface& reference, const SimplifyOptions
       careful_{careful_options(options), options.careful.wanted},
       ordinary_{options},
       bold_{bold_options(options), options.bold.wanted},
-      last_checkpoint_(start_) {
+      last_checkpoint_(Clock::now()) {
   if (bc_.irregular > 0) {
     throw InputError(fmt::format("{} regions of the base complex are no cuboids", bc_.irregular));
   }
@@ -79,17 +80,23 @@ Run::Run(HexMesh& mesh, const ReferenceSurface& reference, const SimplifyOptions
 SimplifyReport Run::run() {
   clock_.back_to(Stage::other);
   observe({.what = StepKind::start});
+  record();
+  if (!is_smoothed()) simplify_input();
+  for (int i = 0; i < kMostGoes && is_smoothed() && is_stuck() && improve(); ++i) {
+  }
+  measure_output();
+  if (is_smoothed()) tell_of_output({.what = StepKind::smoothing});
+  return report_;
+}
+
+void Run::simplify_input() {
   coarsen_input();
   loop();
   go_on_with_all_cells();
   if (report_.collapses() == 0) go_on_from_relaxed();
   if (report_.collapses() == 0 && made_room_) give_back_input();
   finish();
-  for (int i = 0; i < kMostGoes && is_smoothed() && is_stuck() && improve(); ++i) {
-  }
-  measure_output();
-  if (is_smoothed()) tell_of_output({.what = StepKind::smoothing});
-  return report_;
+  keep_outcome();
 }
 
 // What the loop has left is given its count of cells, and smoothed.
@@ -214,12 +221,15 @@ bool Run::is_cut_short() {
   return true;
 }
 
+bool Run::meets_target(int components) const {
+  const double rate = 1 - static_cast<double>(components) / report_.before.components;
+  return (options_.target_rate && rate >= *options_.target_rate) ||
+         (options_.target_components && components <= *options_.target_components);
+}
+
 bool Run::should_stop() {
   if (is_cut_short()) return true;
-  const auto components = static_cast<int>(bc_.components.size());
-  const double rate = 1 - static_cast<double>(components) / report_.before.components;
-  if ((options_.target_rate && rate >= *options_.target_rate) ||
-      (options_.target_components && components <= *options_.target_components)) {
+  if (meets_target(static_cast<int>(bc_.components.size()))) {
     report_.stopped = StopReason::target_reached;
   } else if (failed_in_a_row_ >= options_.max_failed_trials) {
     report_.stopped = StopReason::no_progress;

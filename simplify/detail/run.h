@@ -22,17 +22,18 @@ class Round;  // round.h
 
 class Run {
  public:
+  using Clock = StageClock::Clock;
   /// \param reference  the surface of the input
+  /// \param start  from when on its time counts
   /// \throws InputError if the base complex is not regular
-  Run(HexMesh& mesh, const ReferenceSurface& reference, const SimplifyOptions& options);
+  Run(HexMesh& mesh, const ReferenceSurface& reference, const SimplifyOptions& options,
+      Clock::time_point start = Clock::now());
   /// Puts the checkpoint's mesh in the place of the input's.
   /// \throws InputError if it cannot have come from it; the mesh is then as it was
   void go_on_from(const Checkpoint& from);
   SimplifyReport run();
 
  private:
-  using Clock = std::chrono::steady_clock;
-
   /// How trials are made, and which have failed so.
   struct Manner {
     SimplifyOptions options;
@@ -82,11 +83,13 @@ class Run {
     HexMesh mesh;
     int components;
     Tally tally;
+    StopReason stopped;  ///< the loop that led there
     bool smoothed;
     double hausdorff_ratio;  ///< if it is smoothed
   };
 
   // ---- The loop (run.cpp) ----
+  void simplify_input();
   void coarsen_input();
   void loop();
   void loop_afresh();
@@ -104,6 +107,7 @@ class Run {
   double full_count() const;  // of cells, that the output is to have
   void aim_at(double cells);
   bool is_short_of_cells(double share) const;
+  bool meets_target(int components) const;
   bool should_stop();   // for good or for lack of progress
   bool is_cut_short();  // asked to stop, or out of time
 
@@ -154,6 +158,7 @@ class Run {
   void tell_of_output(SimplifyProgress p);
   void tell(SimplifyProgress p);
   void keep_checkpoint(bool now = false);
+  void keep_outcome();
   void replace_mesh(const HexMesh& mesh);
   void forget_failures();
   void compact();
@@ -188,6 +193,7 @@ class Run {
   bool made_room_ = false;   // by what is for nothing without a collapse: layers, splits, relaxing
   std::vector<SimplifyProgress> observed_;  // not told yet: the components are still to be counted
   bool in_round_ = false, last_round_failed_ = false;
+  bool may_be_given_up_ = false;  // what is done now, for a mesh that is better
   int failed_in_a_row_ = 0;  // trials that came as far as the geometry, since the last accepted one
   Clock::time_point last_checkpoint_;
   double earlier_seconds_ = 0;  // of runs before this one

@@ -28,8 +28,9 @@ void Run::verify() {
 void Run::take_as_verified() { verified_ = milestone(); }
 
 Run::Milestone Run::milestone() const {
-  return {mesh_, static_cast<int>(bc_.components.size()), tally(), is_smoothed(),
-          report_.hausdorff_ratio};
+  return {mesh_,         static_cast<int>(bc_.components.size()),
+          tally(),       report_.stopped,
+          is_smoothed(), report_.hausdorff_ratio};
 }
 
 // To the last mesh that may be written; what comes keeps more distance from the limit.
@@ -43,6 +44,8 @@ void Run::return_to(const Milestone& milestone, Refusal refusal) {
   count_as_refused(milestone.tally, refusal);
   smoothed_step_ = milestone.smoothed ? step_ : -1;
   report_.hausdorff_ratio = milestone.hausdorff_ratio;
+  report_.stopped = milestone.stopped;
+  is_cut_short();  // notes down why, if so
   observe({.what = StepKind::back});
   record();
 }
@@ -57,7 +60,7 @@ void Run::end_with_what_may_be_written() {
   bool well = ends_well();
   for (int i = 0; i < kMore && !well && !is_cut_short(); ++i) {
     go_back();
-    loop();
+    loop_afresh();
     well = ends_well();
   }
   if (!well) go_back();
@@ -65,7 +68,9 @@ void Run::end_with_what_may_be_written() {
 
 // Splits, layers taken out and relaxing that made room for no collapse were for nothing.
 void Run::give_back_input() {
+  const StopReason why = report_.stopped;
   return_to(verified_, Refusal::structure);
+  report_.stopped = why;
   made_room_ = false;
 }
 
@@ -75,17 +80,21 @@ bool Run::improve() {
   constexpr double kWorthMore = 0.95;  // of the components are left at most
   const Milestone before = milestone();
   take_as_verified();
+  may_be_given_up_ = true;
   loop_from_smoothed();
-  if (tally().step == before.tally.step) return false;
   if (report_.collapses() > before.tally.collapses()) finish();
-  if (is_better_than(before))
-    return static_cast<double>(bc_.components.size()) <= kWorthMore * before.components;
-  return_to(before, Refusal::quality);
-  return false;
+  may_be_given_up_ = false;
+  const bool changed = tally().step != before.tally.step,
+             better = changed && is_better_than(before);
+  if (changed && !better) return_to(before, Refusal::quality);
+  keep_outcome();
+  return better && static_cast<double>(bc_.components.size()) <= kWorthMore * before.components;
 }
 
-// Components for quality: a larger share of them has to be gone than of the least scaled Jacobian.
+// Components for quality: a larger share of them has to be gone than of the least scaled Jacobian, but
+// for those that were asked to go.
 bool Run::is_better_than(const Milestone& other) const {
+  if (meets_target(static_cast<int>(bc_.components.size()))) return true;
   const double left = static_cast<double>(bc_.components.size()) / other.components;
   return left < 1 && left <= min_scaled_jacobian(mesh_) / min_scaled_jacobian(other.mesh);
 }

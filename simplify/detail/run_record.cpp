@@ -61,13 +61,19 @@ void Run::go_on_from(const Checkpoint& from) {
   report_.refinement_failed = s.refinement_failed;
   earlier_seconds_ = s.seconds;
   earlier_profile_ = s.profile;
-  if (report_.collapses() > 0 && may_be_written()) take_as_verified();
+  if (report_.collapses() == 0 || !may_be_written()) return;
+  if (s.smoothed) {
+    smoothed_step_ = step_;
+    report_.hausdorff_ratio = hausdorff_distance(mesh_, reference_).ratio();
+  }
+  take_as_verified();
 }
 
 RunState Run::state() {
   RunState s;
   s.step = step_;
   s.failed_in_a_row = failed_in_a_row_;
+  s.smoothed = is_smoothed();
   s.distance_share = context_.distance_limit / context_.final_limit;
   s.target_cells = target_cells_;
   s.sheets = report_.sheets;
@@ -128,12 +134,18 @@ void Run::tell(SimplifyProgress p) {
 }
 
 void Run::keep_checkpoint(bool now) {
-  if (!options_.checkpoint) return;
+  if (!options_.checkpoint || may_be_given_up_) return;
   const std::chrono::duration<double> since = Clock::now() - last_checkpoint_;
   if (!now && since.count() < options_.checkpoint_every_s) return;
   const auto reporting = timer(Stage::reporting);
   options_.checkpoint(mesh_, state());
   last_checkpoint_ = Clock::now();
+}
+
+// Unless more of the loop would follow, had the run not been told to end.
+void Run::keep_outcome() {
+  const bool is_done = !is_cut_short() && report_.stopped != StopReason::target_reached;
+  if (is_smoothed() && is_done) keep_checkpoint(true);
 }
 
 // Handles change: what is known by handle is made anew.

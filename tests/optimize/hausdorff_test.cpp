@@ -56,9 +56,9 @@ TEST(HausdorffDistance, IsTheSameHoweverCoarseTheFirstSurfaceIs) {
   for (VertexHandle v : dented.vertices())
     dented.set_point(v, dented.point(v) + random.in_cube(0.02));
   const auto to = make_reference_surface(dented);
-  const double fine = one_sided_distance(make_reference_surface(box(0, 1, 32)), to);
+  const double fine = farthest_point(make_reference_surface(box(0, 1, 32)), to).distance;
   for (int n : {1, 2, 3}) {
-    const double coarse = one_sided_distance(make_reference_surface(box(0, 1, n)), to);
+    const double coarse = farthest_point(make_reference_surface(box(0, 1, n)), to).distance;
     EXPECT_NEAR(coarse, fine, 1.5e-3 * to.bounding_box_diagonal()) << n;
   }
 }
@@ -68,7 +68,7 @@ TEST(HausdorffDistance, IsNoLowerThanThatOfRandomSamples) {
   const auto reference = make_reference_surface(mesh);
   perturb(mesh, 0.03, true, 3);
   const auto moved = make_reference_surface(mesh);
-  const double d = one_sided_distance(moved, reference);
+  const double d = farthest_point(moved, reference).distance;
   Random random(4);
   double sampled = 0;
   for (const auto& t : moved.triangles()) {
@@ -100,9 +100,9 @@ TEST(HausdorffDistance, MoreSamplesNeverLowerIt) {
 
 TEST(HausdorffDistance, RefusesBadOptions) {
   const auto s = make_reference_surface(box(0, 1, 1));
-  EXPECT_THROW(one_sided_distance(s, s, {.points_per_triangle = 0}), InputError);
-  EXPECT_THROW(one_sided_distance(s, s, {.points_per_surface = -1}), InputError);
-  EXPECT_THROW(one_sided_distance(s, s, {.resolution = 0}), InputError);
+  EXPECT_THROW(farthest_point(s, s, {.points_per_triangle = 0}), InputError);
+  EXPECT_THROW(farthest_point(s, s, {.points_per_surface = -1}), InputError);
+  EXPECT_THROW(farthest_point(s, s, {.resolution = 0}), InputError);
 }
 
 }  // namespace

@@ -67,6 +67,16 @@ TEST(Coarsen, StopsBetweenTwoLayers) {
   EXPECT_TRUE(is_valid(b.mesh));
 }
 
+TEST(Coarsen, SplitsNoSheets) {
+  TrialBench may(split_in_eight(make_pillowed_grid(3))), may_not(may.mesh);
+  SimplifyOptions splits;
+  splits.splits_per_trial = 6;
+  const int gone = coarsen(may.context, may.bc, splits, [] { return false; });
+  EXPECT_GT(gone, 0);
+  EXPECT_EQ(coarsen_fully(may_not), gone);
+  EXPECT_TRUE(MeshDump(may.mesh) == MeshDump(may_not.mesh));
+}
+
 TEST(TryCoarsen, LeavesAllAsItWasWhereTheSurfaceWouldSuffer) {
   // As few segments round as a round section may have.
   TrialBench b(make_torus({.n_core = 2, .n_around = 16}));

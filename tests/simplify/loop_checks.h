@@ -58,6 +58,12 @@ inline SimplifyReport simplify_well(const HexMesh& input, const SimplifyOptions&
   HexMesh mesh = input;
   const SimplifyReport report = simplify(mesh, options);
   expect_good_output(input, mesh, report, options.hausdorff_limit_rel);
+  if (report.stopped == StopReason::target_reached) {
+    const bool has_few =
+        options.target_components && report.after.components <= *options.target_components;
+    const bool has_rate = options.target_rate && report.rate() >= *options.target_rate;
+    EXPECT_TRUE(has_few || has_rate) << report.after.components;
+  }
   return report;
 }
 

@@ -63,6 +63,34 @@ TEST(Pillow, OneThatLeavesPoorHexahedraIsTakenBackWithTheCollapse) {
   }
 }
 
+// A poor hexahedron far away is no leave to make more of them.
+TEST(Pillow, FloorsAreThoseOfItsSurroundings) {
+  SimplifyOptions options;
+  options.min_scaled_jacobian = 0.69;
+  for (const bool is_spoilt : {false, true}) {
+    HexMesh mesh = make_blocked_sheet();
+    if (is_spoilt) {
+      CellVertices poor;
+      for (int i = 0; i < 8; ++i) {
+        const double x = i % 4 == 1 || i % 4 == 2 ? 1 : 0, y = i % 4 >= 2 ? 1 : 0, z = i / 4;
+        poor[i] = mesh.add_vertex({30 + x + 3 * z, y, z});
+      }
+      mesh.add_cell(poor);
+      ASSERT_LT(min_scaled_jacobian(mesh), 0.4);
+    }
+    TrialBench b(std::move(mesh));
+    const std::vector<Sheet> sheets = extract_sheets(b.bc);
+    const std::vector<PillowedSheet> found = find_pillows(b.mesh, b.bc, sheets, {});
+    ASSERT_FALSE(found.empty());
+    for (const PillowedSheet& p : found) {
+      const TrialResult result =
+          try_pillowed_collapse(b.context, b.bc, sheets[p.sheet], p.pillow, options);
+      EXPECT_EQ(result.refusal, Refusal::quality) << name(result.refusal);
+      if (result.accepted()) break;
+    }
+  }
+}
+
 class PillowsOfEveryFamily : public testing::TestWithParam<MeshFamily> {};
 
 TEST_P(PillowsOfEveryFamily, TheSidesOfASheetAreTheEndsOfItsEdges) {
@@ -138,6 +166,23 @@ TEST_P(PillowsOfEveryFamily, ATrialThatIsRefusedLeavesEverythingAsItWas) {
     EXPECT_TRUE(MeshDump(b.mesh) == before);
     EXPECT_EQ(b.distance.distance(), distance);
   }
+}
+
+TEST(Pillow, SomeFamiliesHaveThem) {
+  int found = 0, inserted = 0;
+  for (const MeshFamily& family : mesh_families()) {
+    HexMesh mesh = family.make();
+    const BaseComplex bc = extract_base_complex(mesh);
+    const std::vector<Sheet> sheets = extract_sheets(bc);
+    for (const PillowedSheet& p : find_pillows(mesh, bc, sheets, {.max_interior = 8})) {
+      ++found;
+      Transaction look(mesh);
+      const CollapsePlan plan = plan_sheet_collapse(mesh, bc, sheets[p.sheet]);
+      inserted += insert_pillow(mesh, bc, sheets[p.sheet], plan, p.pillow).has_value();
+    }
+  }
+  EXPECT_GT(found, 0);
+  EXPECT_GT(inserted, 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(, PillowsOfEveryFamily, testing::ValuesIn(mesh_families()), family_name);

@@ -6,6 +6,7 @@
 
 #include "simplify/plan_check.h"
 #include "tests/mesh_families.h"
+#include "tests/simplify/prediction.h"
 #include "tests/simplify/test_meshes.h"
 
 namespace hexweft {
@@ -93,6 +94,41 @@ TEST(Refusal, ValenceLimitsAreOptions) {
     // What is no worse than before may exceed the upper limit.
     EXPECT_EQ(check_plan(mesh, bc.graph, plan, {.max_interior = 3}), Refusal::none);
   }
+}
+
+// The edges on the diagonal that is not collapsed lose a cell each.
+TEST(Refusal, TheLeastValenceHoldsOnBothDiagonalsOfAChord) {
+  const ValenceLimits limits = {.min_interior = 4};
+  int refused_for_it = 0;
+  for (HexMesh mesh : {make_octree_like(Shape::sphere, 6), make_octree_like(Shape::torus, 8),
+                       make_pillowed_grid(3)}) {
+    const BaseComplex bc = extract_base_complex(mesh);
+    const std::vector<Sheet> sheets = extract_sheets(bc);
+    for (const Chord& chord : extract_chords(bc)) {
+      for (const Diagonal diagonal : {Diagonal::first, Diagonal::second}) {
+        const CollapsePlan plan = plan_chord_collapse(mesh, bc, chord, diagonal, sheets);
+        const Refusal refusal = check_plan(mesh, bc.graph, plan, limits);
+        refused_for_it += refusal == Refusal::valence &&
+                          groups_out_of_limits(mesh, bc.graph, plan, limits).empty();
+        if (refusal != Refusal::none) continue;
+        std::vector<VertexHandle> corners;
+        for (CellHandle c : plan.removed) {
+          for (VertexHandle v : mesh.vertices(c)) corners.push_back(v);
+        }
+        const auto before = facts(mesh, corners);
+        Transaction look(mesh);
+        apply_plan(mesh, plan, default_targets(mesh, bc.graph, plan));
+        std::erase_if(corners, [&](VertexHandle v) { return !mesh.is_live(v); });
+        for (const auto& [ends, now] : facts(mesh, corners)) {
+          const auto [valence, is_boundary] = now;
+          const auto old = before.find(ends);
+          const bool fell = old != before.end() && valence < old->second.first;
+          if (fell && !is_boundary) EXPECT_GE(valence, limits.min_interior);
+        }
+      }
+    }
+  }
+  EXPECT_GT(refused_for_it, 0);
 }
 
 // Of the ring of cells round the core of a cylinder.

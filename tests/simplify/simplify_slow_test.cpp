@@ -1,4 +1,6 @@
 // The loop on octree-like meshes of a few hundred to a thousand cells.
+#include <optional>
+
 #include <gmock/gmock.h>
 
 #include "ovm/errors.h"
@@ -196,6 +198,26 @@ TEST(SimplifySlow, ManyRandomSheetsAreMostlyRemoved) {
     back_to_one += report.after.components == 1;
   }
   EXPECT_GE(back_to_one, 4);
+}
+
+// Of its last go, from the smoothed mesh, much is gained in components and much is lost in quality.
+HexMesh make_hard_box() { return make_solid("oblique-box", 11); }
+
+TEST(SimplifySlow, ATargetThatOnlyTheLastGoReachesIsReached) {
+  const HexMesh input = make_hard_box();
+  std::optional<int> kept;  // components in the last checkpoint
+  SimplifyOptions options;
+  options.checkpoint_every_s = 0;
+  options.checkpoint = [&](const HexMesh& mesh, const RunState& state) {
+    EXPECT_TRUE(is_good(mesh));
+    kept = measure_mesh(mesh).components;
+    if (state.smoothed) EXPECT_GT(state.step, 0);
+  };
+  const SimplifyReport report = simplify_well(input, options);
+  EXPECT_EQ(kept, report.after.components);
+  SimplifyOptions with_target;
+  with_target.target_components = report.after.components - 1;
+  simplify_well(input, with_target);
 }
 
 }  // namespace

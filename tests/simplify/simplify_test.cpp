@@ -289,15 +289,37 @@ TEST(Simplify, CutShortAFineInputHasItsHexahedraAllTheSame) {
   EXPECT_GE(report.after.hexahedra, 0.85 * input.n_cells());
 }
 
-TEST(Simplify, StopDuringTheCoarseningLeavesAValidMesh) {
+TEST(Simplify, StopSoonAfterTheStartLeavesAValidMesh) {
+  for (const int delay_ms : {1, 20, 60, 150}) {
+    SCOPED_TRACE(delay_ms);
+    SimplifyOptions options = far_options();
+    const HexMesh input = make_fine_sphere();
+    std::stop_source source;
+    options.stop = source.get_token();
+    const std::jthread later([&source, delay_ms] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(delay_ms));
+      source.request_stop();
+    });
+    simplify_well(input, options);
+  }
+}
+
+// A layer that goes is no reason to split a sheet.
+TEST(Simplify, FineInputIsCoarsenedWhereTrialsMaySplitSheets) {
   SimplifyOptions options = far_options();
+  options.splits_per_trial = 6;
+  EXPECT_GT(simplify_well(make_fine_sphere(), options).coarsened, 0);
+}
+
+TEST(Simplify, ARunThatIsStoppedAtOnceTellsOfItsStart) {
+  SimplifyOptions options;
   std::stop_source source;
+  source.request_stop();
   options.stop = source.get_token();
-  std::jthread later([&source] {
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    source.request_stop();
-  });
-  simplify_well(make_fine_sphere(), options);
+  std::vector<StepKind> told;
+  options.observer = [&](const SimplifyProgress& p) { told.push_back(p.what); };
+  EXPECT_EQ(simplify_well(make_small_sphere(), options).stopped, StopReason::interrupted);
+  EXPECT_THAT(told, testing::ElementsAre(StepKind::start));
 }
 
 TEST(Simplify, MoreHexahedraComeWhenAskedForEvenIfNothingGoes) {

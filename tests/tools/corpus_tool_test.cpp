@@ -94,6 +94,9 @@ TEST_F(CorpusTool, PublishedFiguresStandBesideOurs) {
               testing::HasSubstr(" method BC | method R | method time s |"));
   EXPECT_EQ(run("hexweft-corpus in -o out --all").exit_code, 0);
   EXPECT_EQ(lines("out/corpus.csv").size(), 5u);
+  write_file(file("in/published.csv"), "corpus,mesh,\"a, b\"\noctree,ball,\"say \"\"x\"\", y\"\n");
+  EXPECT_EQ(run("hexweft-corpus in -o out").exit_code, 0);
+  EXPECT_THAT(lines("out/corpus.csv")[1], testing::EndsWith("done,\"say \"\"x\"\", y\""));
   write_file(file("in/published.csv"), "corpus,mesh,x\noctree,ball\n");
   const ToolRun bad = run("hexweft-corpus in -o out");
   EXPECT_EQ(bad.exit_code, 3);

@@ -1,4 +1,5 @@
 // hexweft-distance as a stranger meets it.
+#include <algorithm>
 #include <cmath>
 
 #include <nlohmann/json.hpp>
@@ -43,20 +44,24 @@ TEST_F(DistanceTool, IsZeroBetweenAMeshAndItselfWhateverTheThreads) {
 }
 
 TEST_F(DistanceTool, TheFarthestPlaceIsAsFarAsTheDistanceSays) {
-  const ToolRun result =
-      run("hexweft-generate octree-like --resolution 8 -o a.vtk >&2 && "
-          "hexweft-generate octree-like --resolution 14 -o b.vtk >&2 && "
-          "hexweft-distance a.vtk b.vtk --json -");
-  ASSERT_EQ(result.exit_code, 0) << result.err;
-  const auto j = nlohmann::json::parse(result.out);
-  for (const char* way : {"forward", "backward"}) {
-    double squared = 0;
-    for (int i : {0, 1, 2}) {
-      const double d = j[way]["at"][i].get<double>() - j[way]["closest"][i].get<double>();
-      squared += d * d;
+  ASSERT_EQ(run("hexweft-generate octree-like --resolution 8 -o a.vtk").exit_code, 0);
+  ASSERT_EQ(run("hexweft-generate octree-like --resolution 14 -o b.vtk").exit_code, 0);
+  for (const char* samples : {"", " --points-per-triangle 1"}) {  // few are made up for
+    const ToolRun result = run(std::string("hexweft-distance a.vtk b.vtk --json -") + samples);
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const auto j = nlohmann::json::parse(result.out);
+    double farther = 0;
+    for (const char* way : {"forward", "backward"}) {
+      double squared = 0;
+      for (int i : {0, 1, 2}) {
+        const double d = j[way]["at"][i].get<double>() - j[way]["closest"][i].get<double>();
+        squared += d * d;
+      }
+      EXPECT_GT(j[way]["distance"], 0) << way;
+      EXPECT_NEAR(std::sqrt(squared), j[way]["distance"], 1e-12) << way;
+      farther = std::max(farther, j[way]["distance"].get<double>());
     }
-    EXPECT_GT(j[way]["distance"], 0) << way;
-    EXPECT_NEAR(std::sqrt(squared), j[way]["distance"], 1e-12) << way;
+    EXPECT_EQ(j["distance"], farther);
   }
 }
 
@@ -66,6 +71,7 @@ TEST_F(DistanceTool, RefusesWhatItCannotUse) {
   for (const auto& [arguments, code] : {std::pair("grid.vtk", 2),
                                         {"- -", 2},
                                         {"grid.vtk grid.vtk --points-per-triangle 0", 2},
+                                        {"grid.vtk grid.vtk --json grid.vtk", 2},
                                         {"grid.vtk missing.stl", 3},
                                         {"grid.vtk bad.obj", 3}}) {
     SCOPED_TRACE(arguments);

@@ -1,5 +1,6 @@
 // hexweft-rank, -structure, -collapse and -refine as a stranger meets them.
 #include <algorithm>
+#include <filesystem>
 #include <set>
 
 #include <nlohmann/json.hpp>
@@ -115,6 +116,22 @@ TEST_F(StructureTool, WritesComponentsSheetsAndChordsAsCellData) {
   EXPECT_THAT(lines, testing::HasSubstr("LINES 4 "));  // the four edges of the ring
   EXPECT_THAT(lines, testing::HasSubstr("SCALARS valence int 1"));
   EXPECT_THAT(read_file(file("b.vtk")), testing::HasSubstr("SCALARS sheet int 1"));
+}
+
+TEST_F(StructureTool, WritesNothingInThePlaceOfAnotherFile) {
+  make("grid");
+  const std::string input = read_file(file("in.vtk"));
+  for (const std::string arguments :
+       {"-o out.vtk --singular-edges in.vtk", "-o out.vtk --base-edges out.vtk",
+        "-o - --singular-edges -", "-o out.vtk --singular-edges - --base-edges -",
+        "-o out.vtk --singular-edges s.vtk --base-edges s.vtk", "-o out.vtk --json in.vtk"}) {
+    SCOPED_TRACE(arguments);
+    const ToolRun result = run("hexweft-structure in.vtk " + arguments);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_THAT(result.err, IsSentenceOf("hexweft-structure"));
+    EXPECT_EQ(read_file(file("in.vtk")), input);
+    EXPECT_FALSE(std::filesystem::exists(file("out.vtk")));
+  }
 }
 
 TEST_F(StructureTool, CanBeRunOnItsOwnOutput) {
