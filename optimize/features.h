@@ -21,7 +21,7 @@ enum class FeatureMode {
 
 struct FeatureOptions {
   FeatureMode mode = FeatureMode::automatic;
-  double angle_deg = 40;  ///< (0, 180), between the normals at an edge; for FeatureMode::angle
+  double angle_deg = 40;  ///< (0, 180], between the normals at an edge; for FeatureMode::angle
 };
 void validate(const FeatureOptions& options);  ///< \throws InputError
 

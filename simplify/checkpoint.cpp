@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "ovm/detail/fnv.h"
 #include "ovm/errors.h"
 #include "simplify/options.h"
 
@@ -13,17 +14,6 @@ namespace hexweft {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-class Fnv {
- public:
-  void add(std::uint64_t x) {
-    for (int i = 0; i < 8; ++i, x >>= 8) hash_ = (hash_ ^ (x & 0xff)) * 1099511628211ull;
-  }
-  std::uint64_t value() const { return hash_; }
-
- private:
-  std::uint64_t hash_ = 14695981039346656037ull;
-};
 
 Json to_json(const RankingWeights& w) {
   return {{"k_valence", w.k_valence},
@@ -57,12 +47,31 @@ Json to_json(const BoldTrials& r) {
           {"max_chord_deviation", r.max_chord_deviation}};
 }
 
+Json to_json(const SurfaceOptions& s) {
+  return {{"treatment", static_cast<int>(s.treatment)},
+          {"feature_angle_deg", s.feature_angle_deg},
+          {"weight", s.weight}};
+}
+
+Json to_json(const TargetShapeOptions& t) {
+  return {{"size_blend", t.size_blend},
+          {"blend_passes", t.blend_passes},
+          {"least_length_rel", t.least_length_rel}};
+}
+
 Json to_json(const ParametrizationOptions& p) {
   return {{"energy", name(p.energy)},
           {"max_iterations", p.max_iterations},
           {"relaxation_iterations", p.relaxation_iterations},
           {"untangling_rounds", p.untangling_rounds},
-          {"surface_treatment", static_cast<int>(p.surface.treatment)}};
+          {"untangle_widely", p.untangle_widely},
+          {"quality_goal", p.quality_goal},
+          {"quality_exponent", p.quality_exponent},
+          {"quality_weight_limit", p.quality_weight_limit},
+          {"least_on_projection", p.least_on_projection},
+          {"goal_weight", p.goal_weight},
+          {"surface", to_json(p.surface)},
+          {"target", to_json(p.target)}};
 }
 
 Profile profile_of(const Json& j) {
@@ -124,15 +133,16 @@ RunState run_state(const Json& j) {
 }
 
 std::uint64_t fingerprint(const HexMesh& mesh) {
-  Fnv hash;
+  detail::Fnv hash;
   std::vector<int> position(mesh.vertex_slots(), -1);
   int n = 0;
   for (const VertexHandle v : mesh.vertices()) {
     position[v.idx] = n++;
-    for (const double x : mesh.point(v)) hash.add(std::bit_cast<std::uint64_t>(x));
+    for (const double x : mesh.point(v)) hash.take_bytes(std::bit_cast<std::uint64_t>(x));
   }
   for (const CellHandle c : mesh.cells()) {
-    for (const VertexHandle v : mesh.vertices(c)) hash.add(position[v.idx]);
+    for (const VertexHandle v : mesh.vertices(c))
+      hash.take_bytes(static_cast<std::uint64_t>(position[v.idx]));
   }
   return hash.value();
 }

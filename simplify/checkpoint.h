@@ -50,7 +50,8 @@ struct Checkpoint {
 std::uint64_t fingerprint(const HexMesh& mesh);
 
 /// The options that say what a mesh of the run may be and what is tried next: all but those that
-/// end a run (rate, components, seconds, stop), the number of threads and the callbacks.
+/// end a run (rate, components, seconds, stop), the number of threads and the callbacks. Of the energy
+/// its name, not its parameters.
 nlohmann::ordered_json lasting_options(const SimplifyOptions& options);
 
 }  // namespace hexweft

@@ -5,19 +5,20 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "ovm/detail/fnv.h"
 #include "ovm/hex_mesh.h"
 
 namespace hexweft {
 
-/// Of a sequence: FNV-1a, a number at a time.
+/// Of a sequence.
 class Hash {
  public:
-  void take(int x) { h_ = (h_ ^ static_cast<unsigned>(x)) * 1099511628211ull; }
-  void take(std::size_t x) { h_ = (h_ ^ x) * 1099511628211ull; }
-  std::size_t value() const { return h_; }
+  void take(int x) { fnv_.take(static_cast<unsigned>(x)); }
+  void take(std::size_t x) { fnv_.take(x); }
+  std::size_t value() const { return fnv_.value(); }
 
  private:
-  std::uint64_t h_ = 1469598103934665603ull;
+  detail::Fnv fnv_;
 };
 
 /// The finalizer of SplitMix64: of hashes that went through it the sum is one of their set.

@@ -26,9 +26,11 @@ void validate(const SimplifyOptions& o) {
   expect_floor("mean_scaled_jacobian", o.mean_scaled_jacobian);
   expect_floor("careful.min_scaled_jacobian", o.careful.min_scaled_jacobian);
   expect_floor("careful.mean_scaled_jacobian", o.careful.mean_scaled_jacobian);
-  for (const double angle : {o.valence.max_angle_deg, o.bold.max_angle_deg}) {
-    expect(angle > 0 && angle <= 360, "max_angle_deg", angle, "(0, 360]");
-  }
+  const auto expect_angle = [](const char* name, double angle) {
+    expect(angle > 0 && angle <= 360, name, angle, "(0, 360]");
+  };
+  expect_angle("valence.max_angle_deg", o.valence.max_angle_deg);
+  expect_angle("bold.max_angle_deg", o.bold.max_angle_deg);
   expect(o.target_hexahedra_rel > 0, "target_hexahedra_rel", o.target_hexahedra_rel, "> 0");
   expect(o.threads > 0, "threads", o.threads, "> 0");
   expect(o.attempts > 0, "attempts", o.attempts, "> 0");
@@ -41,10 +43,12 @@ void validate(const SimplifyOptions& o) {
   expect(o.rings > 0, "rings", o.rings, "> 0");
   expect(o.smoothing_trials >= 0, "smoothing_trials", o.smoothing_trials, ">= 0");
   expect(o.give_up_factor >= 1, "give_up_factor", o.give_up_factor, ">= 1");
-  for (const double factor : {o.merged_give_up_factor, o.bold.merged_give_up_factor})
-    expect(factor >= 1, "merged_give_up_factor", factor, ">= 1");
-  for (const double deviation : {o.max_chord_deviation, o.bold.max_chord_deviation})
-    expect(deviation > 0, "max_chord_deviation", deviation, "> 0");
+  expect(o.merged_give_up_factor >= 1, "merged_give_up_factor", o.merged_give_up_factor, ">= 1");
+  expect(o.bold.merged_give_up_factor >= 1, "bold.merged_give_up_factor",
+         o.bold.merged_give_up_factor, ">= 1");
+  expect(o.max_chord_deviation > 0, "max_chord_deviation", o.max_chord_deviation, "> 0");
+  expect(o.bold.max_chord_deviation > 0, "bold.max_chord_deviation", o.bold.max_chord_deviation,
+         "> 0");
   expect(o.max_failed_trials > 0, "max_failed_trials", o.max_failed_trials, "> 0");
   if (o.target_rate) {
     expect(*o.target_rate >= 0 && *o.target_rate <= 1, "target_rate", *o.target_rate, "[0, 1]");

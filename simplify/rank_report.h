@@ -1,6 +1,6 @@
 /// \file
 /// Every sheet and chord of a mesh with the terms of its ranking, every peel, and every pillow that a
-/// sheet could be collapsed with; and why the others would not be tried.
+/// sheet could be collapsed with; and why ordinary trials would leave the others out.
 ///
 ///     const auto on_feature = base_edges_on_features(bc, feature_of(surface, mesh));
 ///     const RankReport report = report_ranking(mesh, bc, on_feature, options);

@@ -31,8 +31,10 @@ std::string_view name(StopReason reason);
 /// How often trials of one kind ended how, and what that took.
 struct TrialCounts {
   int accepted = 0;
-  std::array<int, kRefusals> refused = {};     ///< by Refusal
-  std::array<double, kRefusals> seconds = {};  ///< by Refusal; at none of those accepted
+  std::array<int, kRefusals> refused = {};  ///< by Refusal
+  /// By Refusal, as the trials themselves ended; at none of those that succeeded, also where they were
+  /// only compared with others or taken back later.
+  std::array<double, kRefusals> seconds = {};
   int waited = 0;     ///< passed over, since they failed and little has changed
   int tried() const;  ///< accepted and refused
 };

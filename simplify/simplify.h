@@ -15,7 +15,8 @@ namespace hexweft {
 
 /// Source [Xu2021, Algorithm 1], spec "The loop". Whenever it stops, the mesh is valid: conforming,
 /// manifold, of the input's genus and parts, without inverted cells, within the Hausdorff limit.
-/// A mesh of which nothing can be removed comes back as it was, but for gaps of deleted elements.
+/// A mesh of which nothing can be removed comes back as it was, but for gaps of deleted elements, unless
+/// more hexahedra are asked for than it has.
 /// Inverted cells of the input are untangled first.
 /// \param mesh  valid (check_topology), its base complex regular, its inverted cells such that they
 ///              can be untangled within the Hausdorff limit

@@ -9,6 +9,7 @@
 
 #include "io/file.h"
 #include "io/hex_mesh_io.h"
+#include "ovm/detail/fnv.h"
 #include "ovm/errors.h"
 
 namespace hexweft::cli {
@@ -17,14 +18,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 constexpr std::string_view kMagic = "hexweft-checkpoint 1 ";
 
-std::uint64_t fnv(std::string_view text) {
-  std::uint64_t hash = 14695981039346656037ull;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ull;
-  return hash;
-}
-
 std::string first_line(std::string_view content) {
-  return fmt::format("{}{} {:016x}\n", kMagic, content.size(), fnv(content));
+  detail::Fnv hash;
+  hash.take_bytes(content);
+  return fmt::format("{}{} {:016x}\n", kMagic, content.size(), hash.value());
 }
 
 // Takes the text up to the next line feed, and that, off the front.

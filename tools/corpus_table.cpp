@@ -131,7 +131,7 @@ void add_csv_line(std::string& out, const std::string& corpus, const Line& line,
   for (const std::string& cell : line.figures) out += ',' + cell;
   out += ',' + quoted(line.status);
   for (std::size_t i = 0; i < published.columns.size(); ++i) {
-    if (!is_of_input(published.columns[i])) out += ',' + line.published[i];
+    if (!is_of_input(published.columns[i])) out += ',' + quoted(line.published[i]);
   }
   out += '\n';
 }

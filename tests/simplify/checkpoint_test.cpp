@@ -1,6 +1,7 @@
 // Runs that are gone on with.
 #include "simplify/checkpoint.h"
 
+#include <functional>
 #include <optional>
 
 #include <gmock/gmock.h>
@@ -176,8 +177,26 @@ TEST(LastingOptions, LeaveOutWhatEndsARun) {
   b.target_components = 10;
   b.threads = 2;
   EXPECT_EQ(lasting_options(a), lasting_options(b));
-  b.weights.beta = 2;
-  EXPECT_NE(lasting_options(a), lasting_options(b));
+}
+
+TEST(LastingOptions, TellOptionsOfEveryPartApart) {
+  const std::function<void(SimplifyOptions&)> changes[] = {
+      [](SimplifyOptions& o) { o.weights.beta = 2; },
+      [](SimplifyOptions& o) { o.valence.min_interior = 4; },
+      [](SimplifyOptions& o) { o.careful.wanted = false; },
+      [](SimplifyOptions& o) { o.bold.max_interior_valence = 6; },
+      [](SimplifyOptions& o) { o.features.mode = FeatureMode::off; },
+      [](SimplifyOptions& o) { o.parametrization.energy = SymmetricDirichlet{}; },
+      [](SimplifyOptions& o) { o.parametrization.quality_exponent = 1; },
+      [](SimplifyOptions& o) { o.parametrization.least_on_projection = 0; },
+      [](SimplifyOptions& o) { o.parametrization.surface.weight = 1; },
+      [](SimplifyOptions& o) { o.parametrization.target.blend_passes = 0; },
+      [](SimplifyOptions& o) { o.smoothing_trials = 0; }};
+  for (const auto& change : changes) {
+    SimplifyOptions changed;
+    change(changed);
+    EXPECT_NE(lasting_options(changed), lasting_options({}));
+  }
 }
 
 }  // namespace
