@@ -1,6 +1,7 @@
 #include "optimize/surface_io.h"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <charconv>
 #include <fstream>
@@ -62,6 +63,16 @@ void check_off_header(std::istream& file, const std::filesystem::path& path, std
   }
 }
 
+// By its size, as the text of the header may begin like that of a text file.
+bool is_binary_stl(std::istream& file, std::uintmax_t size) {
+  constexpr std::uintmax_t kHeader = 84, kTriangle = 50;
+  std::array<unsigned char, kHeader> header;
+  if (!file.read(reinterpret_cast<char*>(header.data()), kHeader)) return false;
+  std::uintmax_t n = 0;
+  for (int i = 3; i >= 0; --i) n = n << 8 | header[80 + i];
+  return size == kHeader + kTriangle * n;
+}
+
 PolygonMesh read_polygons(const std::filesystem::path& path) {
   errno = 0;
   std::ifstream file(path, std::ios::binary);
@@ -74,11 +85,11 @@ PolygonMesh read_polygons(const std::filesystem::path& path) {
   PolygonMesh mesh;
   OpenMesh::IO::Options options;
   const SilentOpenMesh silent;
-  if (extension == ".off") {
-    check_off_header(file, path, std::filesystem::file_size(path, error));
-    file.clear();
-    file.seekg(0);
-  }
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (extension == ".off") check_off_header(file, path, size);
+  if (extension == ".stl" && is_binary_stl(file, size)) options += OpenMesh::IO::Options::Binary;
+  file.clear();
+  file.seekg(0);
   bool done = false;
   try {
     done = OpenMesh::IO::read_mesh(mesh, file, extension, options);

@@ -1,16 +1,22 @@
 #include "tools/cli.h"
 
+#include <cerrno>
+#include <charconv>
 #include <cmath>
+#include <fcntl.h>
 #include <filesystem>
 #include <glog/logging.h>
 #include <iostream>
 #include <new>
+#include <unistd.h>
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
 
 #include "io/file.h"
 #include "io/formats.h"
+#include "io/number_text.h"
+#include "ovm/quality.h"
 #include "ovm/topology_check.h"
 #include "tools/surface_input.h"
 
@@ -50,6 +56,32 @@ std::string short_number(double x) {
   return text;
 }
 
+// Else the first file that is opened takes the place of a stream that was closed, and what is said there
+// gets into it.
+void open_closed_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(stream, F_GETFD) < 0 && errno == EBADF && open("/dev/null", O_RDWR) < 0) return;
+  }
+}
+
+// Hexahedra that are inverted only once the coordinates have so few digits.
+int n_inverted_if_rounded(const HexMesh& mesh, int digits) {
+  HexMesh rounded = mesh;
+  for (VertexHandle v : mesh.vertices()) {
+    Eigen::Vector3d p = mesh.point(v);
+    for (double& x : p) {
+      std::string text;
+      detail::append_number(text, x, digits);
+      std::from_chars(text.data(), text.data() + text.size(), x);
+    }
+    rounded.set_point(v, p);
+  }
+  int n = 0;
+  for (CellHandle c : mesh.cells())
+    n += scaled_jacobian(mesh, c) > 0 && !(scaled_jacobian(rounded, c) > 0);
+  return n;
+}
+
 // Large arrays come and go with every pass over a mesh. To get their pages from the system each time
 // takes up to an eighth of a run.
 void keep_freed_memory() {
@@ -87,6 +119,7 @@ CLI::Validator in_range(double least, double most) {
 
 Program::Program(const std::string& name, const std::string& summary)
     : app_(summary, name), name_(name) {
+  open_closed_streams();
   keep_freed_memory();
   FLAGS_minloglevel = google::GLOG_ERROR;  // nobody can act on the warnings of ceres
   app_.set_version_flag("--version", name + " " HEXWEFT_VERSION);
@@ -145,6 +178,11 @@ void Program::expect_apart(const std::string& option, const std::string& path) c
                                   is_same_file(path, json_path_);
   if (is_taken)
     throw InputError(option + " = " + path + ", expected another file than INPUT and the outputs");
+}
+
+void Program::expect_not_written(const std::string& option, const std::string& path) const {
+  if (is_same_file(path, output_path_) || is_same_file(path, json_path_))
+    throw InputError(option + " = " + path + ", expected another file than the outputs");
 }
 
 int Program::run(int argc, char** argv, const std::function<int()>& body) {
@@ -207,6 +245,12 @@ ReferenceSurface Program::read_surface(const std::string& path, const FeatureOpt
 }
 
 void Program::write_mesh(const HexMesh& mesh) {
+  if (const auto digits = write_options_.precision) {
+    const int n = n_inverted_if_rounded(mesh, *digits);
+    if (n > 0)
+      throw InputError("--precision = " + std::to_string(*digits) + " inverts " +
+                       std::to_string(n) + " hexahedra, expected more digits");
+  }
   const WriteReport report = write_hex_mesh(output_path_, mesh, write_options_);
   for (const std::string& text : report.notes) note(text);
 }

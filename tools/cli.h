@@ -61,7 +61,8 @@ class Program {
   HexMesh read_valid_mesh();
   /// Of a triangle file, or the boundary of a mesh (surface_input.h); notes go to standard error.
   ReferenceSurface read_surface(const std::string& path, const FeatureOptions& features = {});
-  void write_mesh(const HexMesh& mesh);  ///< to the --output
+  /// To the --output. \throws InputError if the --precision asked for would invert hexahedra
+  void write_mesh(const HexMesh& mesh);
   bool wants_json() const { return !json_path_.empty(); }
   void write_json(const nlohmann::ordered_json& report);  ///< if --json asks for it
   /// A line for the user, on standard output, or on standard error if that carries a result.
@@ -72,6 +73,8 @@ class Program {
   void note(const std::string& text) const;  ///< a remark on standard error
   /// \throws InputError if a further file that is written is one of INPUT, --output and --json
   void expect_apart(const std::string& option, const std::string& path) const;
+  /// \throws InputError if a further file that is read is one of --output and --json
+  void expect_not_written(const std::string& option, const std::string& path) const;
 
  private:
   void check_paths() const;

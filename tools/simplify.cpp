@@ -163,6 +163,7 @@ nlohmann::ordered_json last_line(const SimplifyReport& r) {
 void check_files(const cli::Program& program, const Request& request) {
   program.expect_apart("--log", request.log);
   program.expect_apart("--checkpoint", request.checkpoint);
+  program.expect_not_written("--resume", request.resume);
   if (cli::is_same_file(request.log, request.checkpoint) ||
       cli::is_same_file(request.log, request.resume)) {
     throw InputError("--log = " + request.log + ", expected another file than the checkpoint");

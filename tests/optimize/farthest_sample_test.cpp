@@ -157,6 +157,23 @@ TEST(FarthestSample, PassesOverWhatOneTriangleCovers) {
   EXPECT_LT(3 * looks_with, 2 * looks_without);
 }
 
+// Far from the origin a small triangle has no middles, and is divided no further.
+TEST(FarthestSample, EndsWhereCoordinatesHaveNoMoreDigits) {
+  const Eigen::Vector3d far(1e15, 0, 0);
+  int looks = 0;
+  FarthestSample farthest(
+      [&](const Eigen::Vector3d&, double) {
+        ++looks;
+        return FoundDistance{1};
+      },
+      0, std::numeric_limits<double>::infinity(), 1e-3);
+  const Sample a = farthest.look_at(far), b = farthest.look_at(far + Eigen::Vector3d(1, 0, 0)),
+               c = farthest.look_at(far + Eigen::Vector3d(0, 1, 0));
+  farthest.look_at(a, b, c, 2);
+  EXPECT_EQ(farthest.distance(), 1);
+  EXPECT_LT(looks, 100);
+}
+
 TEST(FarthestSample, EndsBeyondWhatIsEnough) {
   int looks = 0;
   FarthestSample farthest(

@@ -70,6 +70,27 @@ TEST_F(SurfaceFile, EveryFormatGivesTheCubeOfAGrid) {
   EXPECT_EQ(read_surface(write("t.stl", kTriangleStl)).triangles().size(), 1u);
 }
 
+// Two triangles; the header may begin as that of a text file does.
+TEST_F(SurfaceFile, BinaryStlIsRead) {
+  const float square[2][12] = {{0, 0, 1, 0, 0, 0, 1, 0, 0, 1, 1, 0},
+                               {0, 0, 1, 0, 0, 0, 1, 1, 0, 0, 1, 0}};
+  for (const std::string header : {"solid x", "made by a scanner", ""}) {
+    SCOPED_TRACE(header);
+    std::string content = header;
+    content.resize(80, header.empty() ? '\0' : ' ');
+    content += std::string("\2\0\0\0", 4);
+    for (const auto& triangle : square) {
+      content.append(reinterpret_cast<const char*>(triangle), sizeof(triangle));
+      content.append(2, '\0');
+    }
+    const ReferenceSurface surface = read_surface(write("b.stl", content));
+    EXPECT_EQ(surface.triangles().size(), 2u);
+    EXPECT_NEAR(surface.closest({0.5, 0.5, 3}).distance, 3, 1e-12);
+    content.pop_back();
+    EXPECT_NE(message("cut.stl", content), "read");
+  }
+}
+
 TEST_F(SurfaceFile, WhatIsNoSurfaceIsNamed) {
   EXPECT_THAT(message("no.obj", "hello\n"), testing::HasSubstr("no.obj: "));
   EXPECT_THAT(message("empty.off", ""), testing::HasSubstr("empty.off: "));

@@ -115,6 +115,34 @@ TEST_F(CommandLine, ConversionThereAndBackIsExact) {
   EXPECT_EQ(chain.out, "");
 }
 
+TEST_F(CommandLine, DigitsThatWouldInvertHexahedraAreRefused) {
+  ASSERT_EQ(run("hexweft-generate octree-like --resolution 8 -o a.vtk").exit_code, 0);
+  const ToolRun few = run("hexweft-convert a.vtk -o b.vtk --precision 1");
+  EXPECT_EQ(few.exit_code, 2);
+  EXPECT_THAT(few.err, IsSentenceOf("hexweft-convert"));
+  EXPECT_FALSE(std::filesystem::exists(file("b.vtk")));
+  EXPECT_EQ(run("hexweft-convert a.vtk -o b.vtk --precision 6").exit_code, 0);
+}
+
+// Else what is said would get into the first file that is opened.
+TEST_F(CommandLine, ClosedStreamsLeaveFilesAlone) {
+  ASSERT_EQ(run("hexweft-generate grid --resolution 3 -o a.vtk").exit_code, 0);
+  for (const std::string closed : {"<&- >&-", ">&- 2>&-", "<&- >&- 2>&-"}) {
+    SCOPED_TRACE(closed);
+    EXPECT_EQ(run("(hexweft-simplify a.vtk -o b.vtk --profile " + closed + ")").exit_code, 0);
+    EXPECT_EQ(run("hexweft-info b.vtk").exit_code, 0);
+  }
+}
+
+TEST_F(CommandLine, AMeshFarFromTheOriginIsNoCrash) {
+  ASSERT_EQ(run("hexweft-generate octree-like --resolution 6 --offset 1e14 0 0 -o a.vtk").exit_code,
+            0);
+  for (const char* tool : {"hexweft-simplify", "hexweft-optimize"}) {
+    const ToolRun result = run(std::string(tool) + " a.vtk -o b.vtk");
+    EXPECT_THAT(result.exit_code, testing::AnyOf(0, 1, 2)) << result.err;
+  }
+}
+
 TEST_F(CommandLine, EveryKindIsMadeTheSameTwice) {
   for (const std::string kind :
        {"grid --layers 2", "o-grid", "torus", "torus --square --rotate", "l-shape",

@@ -205,6 +205,7 @@ TEST_F(SimplifyTool, CheckpointThatDoesNotFitIsRefusedInASentence) {
   refuses("in.vtk --resume in.vtk", 3, "no checkpoint");
   refuses("in.vtk --resume none", 3, "none: cannot be read");
   refuses("in.vtk --resume -", 2, "expected a file");
+  refuses("in.vtk --resume c --json c", 2, "expected another file than the outputs");
   refuses("in.vtk --checkpoint nowhere/c", 3, "nowhere");
   refuses("in.vtk --log nowhere/log", 3, "nowhere");
   const std::string whole = read_file(file("c"));
