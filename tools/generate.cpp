@@ -121,7 +121,9 @@ void add_octree_options(CLI::App& app, Request& request) {
       ->check(CLI::IsMember(shape_names()))
       ->capture_default_str()
       ->group(group);
-  app.add_option("--holes", request.holes, "Holes in the plate-with-holes: its genus")
+  app.add_option("--holes", request.holes,
+                 "Holes in the plate-with-holes: its genus, if the voxels are fine enough to tell "
+                 "them apart")
       ->check(cli::in_range(0, 400))
       ->capture_default_str()
       ->group(group);

@@ -71,6 +71,18 @@ int split_up_to(cli::SingleTrial& trial, const Request& request) {
   return n;
 }
 
+// The trials look at fewer points than this.
+void expect_within(const nlohmann::ordered_json& before, const nlohmann::ordered_json& after,
+                   double limit) {
+  const double was = before.at("hausdorff_ratio").get<double>(),
+               is = after.at("hausdorff_ratio").get<double>();
+  if (is <= std::max(was, limit)) return;
+  throw std::runtime_error(
+      fmt::format("so many hexahedra would be {:.4g} of its diagonal off the surface, expected at "
+                  "most {:.4g}",
+                  is, std::max(was, limit)));
+}
+
 int run(cli::Program& program, const Request& request) {
   if (request.sheet.has_value() == request.hexahedra.has_value()) {
     throw InputError("expected one of --sheet and --hexahedra");
@@ -81,6 +93,7 @@ int run(cli::Program& program, const Request& request) {
                               : split_up_to(trial, request);
   trial.mesh().collect_garbage();
   const auto after = trial.figures();
+  expect_within(before, after, request.trial.options.hausdorff_limit_rel);
   program.write_mesh(trial.mesh());
   program.write_json({{"split", n}, {"before", before}, {"after", after}});
   program.say_text(cli::compare(before, after));

@@ -258,6 +258,25 @@ TEST_F(RefineTool, MakesNoThinLayersWhereTheSurfaceIsFar) {
   EXPECT_GT(thinnest, mean / 5);
 }
 
+TEST_F(RefineTool, WhatItWritesKeepsTheDistance) {
+  make("octree-like --shape thin-cap --resolution 7 --seed 56184");
+  int written = 0;
+  for (const int count : {300, 600, 1200, 2000}) {
+    const ToolRun result =
+        run("hexweft-refine in.vtk -o out.vtk --hausdorff 0.005 --json - "
+            "--hexahedra " +
+            std::to_string(count));
+    if (result.exit_code != 0) {
+      EXPECT_EQ(result.exit_code, 1);
+      EXPECT_THAT(result.err, IsSentenceOf("hexweft-refine"));
+      continue;
+    }
+    ++written;
+    EXPECT_LE(Json::parse(result.out)["after"]["hausdorff_ratio"], 0.005) << count;
+  }
+  EXPECT_GT(written, 0);
+}
+
 TEST_F(RefineTool, RefusesWhatItCannotUse) {
   make("grid --resolution 2");
   for (const std::string arguments :
