@@ -22,6 +22,9 @@ constexpr int kSplitsAtOnce = 5;
 constexpr double kCoarse = 0.5;
 // Up to this share sheets are split when nothing else goes on.
 constexpr double kMostCells = 1.1;
+// Meshes that were lost in a check at full sampling; hardly any run has one. After so many the limit is
+// too close for what the loop can tell.
+constexpr int kMostLost = 10;
 // From the smoothed mesh on; hardly any is for something after these.
 constexpr int kMostGoes = 3;
 
@@ -231,7 +234,7 @@ bool Run::should_stop() {
   if (is_cut_short()) return true;
   if (meets_target(static_cast<int>(bc_.components.size()))) {
     report_.stopped = StopReason::target_reached;
-  } else if (failed_in_a_row_ >= options_.max_failed_trials) {
+  } else if (failed_in_a_row_ >= options_.max_failed_trials || times_lost_ >= kMostLost) {
     report_.stopped = StopReason::no_progress;
   } else {
     return false;

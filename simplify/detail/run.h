@@ -193,6 +193,7 @@ class Run {
   bool made_room_ = false;   // by what is for nothing without a collapse: layers, splits, relaxing
   std::vector<SimplifyProgress> observed_;  // not told yet: the components are still to be counted
   bool in_round_ = false, last_round_failed_ = false;
+  int times_lost_ = 0;            // meshes that were not within the limit at full sampling
   bool may_be_given_up_ = false;  // what is done now, for a mesh that is better
   int failed_in_a_row_ = 0;  // trials that came as far as the geometry, since the last accepted one
   Clock::time_point last_checkpoint_;

@@ -36,6 +36,7 @@ Run::Milestone Run::milestone() const {
 // To the last mesh that may be written; what comes keeps more distance from the limit.
 void Run::go_back() {
   context_.distance_limit *= 0.95;
+  ++times_lost_;
   return_to(verified_, Refusal::hausdorff);
 }
 

@@ -289,6 +289,23 @@ TEST(Simplify, CutShortAFineInputHasItsHexahedraAllTheSame) {
   EXPECT_GE(report.after.hexahedra, 0.85 * input.n_cells());
 }
 
+// What is over a limit near the rounding of the coordinates shows at full sampling only.
+TEST(Simplify, ALimitNearRoundingEndsTheRun) {
+  HexMesh input = make_grid({4, 4, 4});
+  for (const int x : {1, 2}) pillow_columns(input, x, x + 1, 1, 3);
+  input.collect_garbage();
+  for (VertexHandle v : input.vertices()) {
+    const Eigen::Vector3d p = input.point(v);
+    input.set_point(v, Eigen::AngleAxisd(0.3, Eigen::Vector3d(1, 2, 3).normalized()) * p);
+  }
+  SimplifyOptions options;
+  options.hausdorff_limit_rel = 1e-14;
+  HexMesh mesh = input;
+  const SimplifyReport report = simplify(mesh, options);
+  EXPECT_LE(report.hausdorff_ratio, 1e-14);
+  EXPECT_TRUE(is_good(mesh));
+}
+
 TEST(Simplify, StopSoonAfterTheStartLeavesAValidMesh) {
   for (const int delay_ms : {1, 20, 60, 150}) {
     SCOPED_TRACE(delay_ms);

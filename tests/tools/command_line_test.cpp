@@ -143,6 +143,13 @@ TEST_F(CommandLine, AMeshFarFromTheOriginIsNoCrash) {
   }
 }
 
+// The loop takes for nothing what shows at full sampling: it must not go back for it for ever.
+TEST_F(CommandLine, ALimitNearRoundingEndsTheRun) {
+  ASSERT_EQ(run("hexweft-generate grid --sheets 3 --seed 2 -o a.vtk").exit_code, 0);
+  EXPECT_EQ(run("hexweft-simplify a.vtk -o b.vtk --hausdorff 1e-14").exit_code, 0);
+  EXPECT_EQ(run("hexweft-info b.vtk").exit_code, 0);
+}
+
 TEST_F(CommandLine, EveryKindIsMadeTheSameTwice) {
   for (const std::string kind :
        {"grid --layers 2", "o-grid", "torus", "torus --square --rotate", "l-shape",
