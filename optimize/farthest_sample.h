@@ -125,8 +125,8 @@ class FarthestSample {
   }
   bool is_coarse(const Sample& a, const Sample& b, const Sample& c) const {
     constexpr double kFaint = 10;  // resolutions: small distances need not be known as well
-    constexpr double kRounding =
-        1e-14;  // of the coordinates: what is smaller has no middle any more
+    // Of the coordinates: what is smaller has no middle any more.
+    constexpr double kRounding = 1e-14;
     const double r = radius(a, b, c), rounding = kRounding * a.point.cwiseAbs().maxCoeff();
     return r > std::max(resolution_, rounding) &&
            farthest_corner(a, b, c) + r > kFaint * resolution_;

@@ -36,8 +36,7 @@ double usual_resolution(double diagonal) { return resolution_for(0.01 * diagonal
 
 /// Its feature lines have no say in a distance.
 ReferenceSurface boundary_of(const HexMesh& mesh) {
-  constexpr double kNormalAngle = 40;  // nor have its normals
-  return make_reference_surface(mesh, kNormalAngle, {.mode = FeatureMode::off});
+  return make_reference_surface(mesh, kNormalAngleDeg, {.mode = FeatureMode::off});
 }
 
 /// Subdivisions after which the parts' centroids are at least n.

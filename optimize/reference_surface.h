@@ -30,6 +30,10 @@ struct SurfacePoint {
   int triangle = -1;  ///< of equally close ones the lowest; -1 if none within reach
 };
 
+/// Degrees; normals are averaged across edges less sharp than this, if nothing else is asked for. It has
+/// no say in what is a feature line.
+inline constexpr double kNormalAngleDeg = 40;
+
 /// Copies share the data. Const calls may run at the same time on several threads.
 class ReferenceSurface {
  public:
@@ -40,7 +44,7 @@ class ReferenceSurface {
   /// \throws InputError  without triangles, on a bad index, a coordinate that is not finite, or a
   ///                     bounding box whose diagonal is outside of [1e-60, 1e60]
   ReferenceSurface(Eigen::Matrix3Xd points, std::vector<std::array<int, 3>> triangles,
-                   double feature_angle_deg = 40, const FeatureOptions& features = {});
+                   double feature_angle_deg = kNormalAngleDeg, const FeatureOptions& features = {});
 
   /// The closest point; every result is computed in double, Embree only prunes.
   /// \param near  a triangle thought to be close, or -1: makes it faster, never changes the result
@@ -72,7 +76,8 @@ class ReferenceSurface {
 
 /// The boundary of a mesh, each side cut into the triangles (0,1,2) and (2,3,0).
 /// \throws InputError if the mesh has no cells
-ReferenceSurface make_reference_surface(const HexMesh& mesh, double feature_angle_deg = 40,
+ReferenceSurface make_reference_surface(const HexMesh& mesh,
+                                        double feature_angle_deg = kNormalAngleDeg,
                                         const FeatureOptions& features = {});
 
 }  // namespace hexweft

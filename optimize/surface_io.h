@@ -24,7 +24,8 @@ bool is_surface_file(const std::filesystem::path& path);
 /// \param feature_angle_deg, features  as in ReferenceSurface
 /// \throws FormatError "path: ..." if the file cannot be read, is not what its extension says, or
 ///         has no triangles
-ReferenceSurface read_surface(const std::filesystem::path& path, double feature_angle_deg = 40,
+ReferenceSurface read_surface(const std::filesystem::path& path,
+                              double feature_angle_deg = kNormalAngleDeg,
                               const FeatureOptions& features = {});
 
 }  // namespace hexweft

@@ -63,8 +63,6 @@ void untangle_input(HexMesh& mesh, const ReferenceSurface& reference,
 
 // The mesh changes only if nothing is thrown.
 SimplifyReport run_on(HexMesh& mesh, const Checkpoint* from, const SimplifyOptions& options) {
-  // Normals are averaged across edges less sharp than this; it has no say in what is a feature line.
-  constexpr double kNormalAngle = 40;
   const auto start = detail::Run::Clock::now();
   validate(options);
   check_mesh(mesh, "the mesh");
@@ -75,7 +73,8 @@ SimplifyReport run_on(HexMesh& mesh, const Checkpoint* from, const SimplifyOptio
     check_mesh(from->mesh, "the checkpoint's mesh");
     expect_no_inverted(from->mesh, "the checkpoint's mesh");
   }
-  const ReferenceSurface reference = make_reference_surface(mesh, kNormalAngle, options.features);
+  const ReferenceSurface reference =
+      make_reference_surface(mesh, kNormalAngleDeg, options.features);
   Outcome outcome = {mesh, {}};
   const bool tangled = first_inverted(mesh).valid();
   if (tangled) untangle_input(outcome.mesh, reference, options);

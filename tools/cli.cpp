@@ -171,17 +171,19 @@ void Program::check_paths() const {
   if (wants_json()) check_writable(json_path_);
 }
 
+bool Program::is_output(const std::string& path) const {
+  return is_same_file(path, output_path_) || is_same_file(path, json_path_);
+}
+
 void Program::expect_apart(const std::string& option, const std::string& path) const {
-  const bool is_taken = path == "-"
-                            ? output_path_ == "-" || json_path_ == "-"
-                            : is_same_file(path, input_path_) || is_same_file(path, output_path_) ||
-                                  is_same_file(path, json_path_);
+  const bool is_taken = path == "-" ? output_path_ == "-" || json_path_ == "-"
+                                    : is_same_file(path, input_path_) || is_output(path);
   if (is_taken)
     throw InputError(option + " = " + path + ", expected another file than INPUT and the outputs");
 }
 
 void Program::expect_not_written(const std::string& option, const std::string& path) const {
-  if (is_same_file(path, output_path_) || is_same_file(path, json_path_))
+  if (is_output(path))
     throw InputError(option + " = " + path + ", expected another file than the outputs");
 }
 

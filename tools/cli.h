@@ -78,6 +78,7 @@ class Program {
 
  private:
   void check_paths() const;
+  bool is_output(const std::string& path) const;
 
   CLI::App app_;
   std::string name_;

@@ -7,17 +7,10 @@
 #include "optimize/surface_io.h"
 
 namespace hexweft::cli {
-namespace {
-
-// Normals are averaged across edges less sharp than this; it has no say in what is a feature line.
-constexpr double kNormalAngle = 40;
-
-}  // namespace
-
 ReferenceSurface read_surface_input(const std::filesystem::path& path,
                                     std::vector<std::string>& notes,
                                     const FeatureOptions& features) {
-  if (is_surface_file(path)) return read_surface(path, kNormalAngle, features);
+  if (is_surface_file(path)) return read_surface(path, kNormalAngleDeg, features);
   ReadReport report;
   const HexMesh mesh = read_hex_mesh(path, {}, &report);
   notes.insert(notes.end(), report.notes.begin(), report.notes.end());
@@ -26,7 +19,7 @@ ReferenceSurface read_surface_input(const std::filesystem::path& path,
 }
 
 ReferenceSurface boundary_of(const HexMesh& mesh, const FeatureOptions& features) {
-  return make_reference_surface(mesh, kNormalAngle, features);
+  return make_reference_surface(mesh, kNormalAngleDeg, features);
 }
 
 FeatureOptions parse_features(const std::string& text) {

@@ -419,6 +419,19 @@ TEST(Simplify, StopDuringTheSmoothingLeavesAValidMesh) {
   simplify_well(input, options);
 }
 
+std::ptrdiff_t count(const std::vector<SimplifyProgress>& steps, StepKind what) {
+  return std::count_if(steps.begin(), steps.end(), [&](const auto& p) { return p.what == what; });
+}
+
+// As many of every kind as the report says.
+void expect_steps_of(const SimplifyReport& report, const std::vector<SimplifyProgress>& steps) {
+  EXPECT_EQ(count(steps, StepKind::sheet), report.sheets.accepted);
+  EXPECT_EQ(count(steps, StepKind::chord), report.chords.accepted);
+  EXPECT_EQ(count(steps, StepKind::peel), report.peels.accepted);
+  EXPECT_EQ(count(steps, StepKind::pillow), report.pillows.accepted);
+  EXPECT_EQ(count(steps, StepKind::refinement), report.refined);
+}
+
 TEST(Simplify, ObserverIsToldOfEveryKindOfStep) {
   const HexMesh input = make_small_sphere();
   HexMesh mesh = input;
@@ -426,14 +439,7 @@ TEST(Simplify, ObserverIsToldOfEveryKindOfStep) {
   std::vector<SimplifyProgress> steps;
   options.observer = [&](const SimplifyProgress& p) { steps.push_back(p); };
   const SimplifyReport report = simplify(mesh, options);
-  const auto count = [&](StepKind what) {
-    return std::count_if(steps.begin(), steps.end(), [&](const auto& p) { return p.what == what; });
-  };
-  EXPECT_EQ(count(StepKind::sheet), report.sheets.accepted);
-  EXPECT_EQ(count(StepKind::chord), report.chords.accepted);
-  EXPECT_EQ(count(StepKind::peel), report.peels.accepted);
-  EXPECT_EQ(count(StepKind::pillow), report.pillows.accepted);
-  EXPECT_EQ(count(StepKind::refinement), report.refined);
+  expect_steps_of(report, steps);
   ASSERT_GT(report.sheets.accepted, 0);
   EXPECT_EQ(steps.front().what, StepKind::start);
   EXPECT_EQ(steps.front().components, report.before.components);
@@ -456,16 +462,9 @@ TEST(Simplify, ObserverIsToldOfGoingBack) {
   options.observer = [&](const SimplifyProgress& p) { told.push_back(p); };
   const SimplifyReport report = simplify(mesh, options);
   const std::vector<SimplifyProgress> steps = without_taken_back(told);
-  const auto count = [&](StepKind what) {
-    return std::count_if(steps.begin(), steps.end(), [&](const auto& p) { return p.what == what; });
-  };
-  EXPECT_GT(count(StepKind::back), 0);
+  EXPECT_GT(count(steps, StepKind::back), 0);
   EXPECT_LT(steps.size(), told.size());
-  EXPECT_EQ(count(StepKind::sheet), report.sheets.accepted);
-  EXPECT_EQ(count(StepKind::chord), report.chords.accepted);
-  EXPECT_EQ(count(StepKind::peel), report.peels.accepted);
-  EXPECT_EQ(count(StepKind::pillow), report.pillows.accepted);
-  EXPECT_EQ(count(StepKind::refinement), report.refined);
+  expect_steps_of(report, steps);
   EXPECT_EQ(steps.back().what, StepKind::smoothing);
   EXPECT_EQ(steps.back().components, report.after.components);
 }
