@@ -4,16 +4,21 @@
 #include <array>
 
 #include "io/medit.h"
+#include "io/ovm.h"
 #include "io/text_scanner.h"
 #include "io/vtk_legacy.h"
 
 namespace hexweft {
 
 std::span<const Format> formats() {
-  static constexpr std::array<Format, 2> kFormats{{
+  static constexpr std::array<Format, 4> kFormats{{
       {"vtk", ".vtk", "legacy VTK, text or binary, with point and cell data", true, is_vtk_legacy,
        read_vtk_legacy, write_vtk_legacy},
       {"medit", ".mesh", "Medit, text, with references", false, is_medit, read_medit, write_medit},
+      {"ovm", ".ovm", "OpenVolumeMesh, text, with numbers on vertices and cells", false, is_ovm,
+       read_ovm, write_ovm},
+      {"ovmb", ".ovmb", "OpenVolumeMesh, binary, with numbers on vertices and cells", true, is_ovmb,
+       read_ovmb, write_ovmb},
   }};
   return kFormats;
 }

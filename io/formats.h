@@ -16,7 +16,7 @@ struct Format {
   std::string_view name;         ///< as in ReadOptions::format
   std::string_view extension;    ///< with its dot, lower case
   std::string_view description;  ///< one line for --help
-  bool has_binary;               ///< whether WriteOptions::binary may be set
+  bool has_binary;               ///< whether WriteOptions::binary may be set, or always is
   bool (*starts_like)(std::string_view text);
   MeshData (*read)(std::string_view text, const std::string& path);
   void (*write)(const HexMesh& mesh, const WriteOptions& options, std::string& out,

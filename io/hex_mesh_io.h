@@ -48,9 +48,8 @@ struct WriteReport {
 
 /// \param path    "-" is standard input
 /// \param report  filled if given
-/// \throws FormatError if the file cannot be read or is not what it claims to be ("path:line:
-/// ...");
-///         InputError for an unknown format name
+/// \throws FormatError if the file cannot be read or is not what it claims to be ("path:line: ...",
+///         or "path: byte N: ..." where a file has no lines); InputError for an unknown format name
 /// A mesh that is read need not be valid: check_topology() (ovm/topology_check.h) tells.
 HexMesh read_hex_mesh(const std::filesystem::path& path, const ReadOptions& options = {},
                       ReadReport* report = nullptr);

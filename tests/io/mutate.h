@@ -13,8 +13,11 @@ inline std::vector<std::string> intact_files() {
   named_property<CellTag, Eigen::Vector3d>(mesh, "axis", Eigen::Vector3d(0, 0, 1));
   named_property<CellTag, Eigen::VectorXd>(mesh, "stress", Eigen::VectorXd::Ones(6));
   const std::string cube = "POINTS 8 float\n0 0 0 1 0 0 1 1 0 0 1 0 0 0 1 1 0 1 1 1 1 0 1 1\n";
-  return {write_hex_mesh_text(mesh), write_hex_mesh_text(mesh, {.binary = true}),
+  return {write_hex_mesh_text(mesh),
+          write_hex_mesh_text(mesh, {.binary = true}),
           write_hex_mesh_text(mesh, {.format = "medit"}),
+          write_hex_mesh_text(mesh, {.format = "ovm"}),
+          write_hex_mesh_text(mesh, {.format = "ovmb"}),
           "# vtk DataFile Version 5.1\nx\nASCII\nFIELD FieldData 1\nTIME 1 1 double\n0.5\n"
           "DATASET UNSTRUCTURED_GRID\n" +
               cube +

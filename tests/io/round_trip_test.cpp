@@ -70,6 +70,22 @@ TEST(RoundTrip, DataOfVtk) {
   }
 }
 
+TEST(RoundTrip, DataOfOpenVolumeMesh) {
+  HexMesh mesh = with_awkward_values();
+  add_every_kind_of_data(mesh);
+  for (const char* format : {"ovm", "ovmb"}) {
+    SCOPED_TRACE(format);
+    WriteReport report;
+    const std::string text = write_hex_mesh_text(mesh, {.format = format}, &report);
+    EXPECT_THAT(report.notes, testing::ElementsAre(testing::HasSubstr("stress")));  // six a cell
+    const HexMesh read = read_hex_mesh_text(text, "x");
+    HexMesh expected = mesh;
+    property_registry<CellTag>(expected)->erase("stress");
+    expect_same_mesh(expected, read);
+    EXPECT_EQ(text, write_hex_mesh_text(read, {.format = format}));
+  }
+}
+
 TEST(RoundTrip, NotANumberInDataSurvives) {
   HexMesh mesh = unit_cube();
   named_property<VertexTag, double>(mesh, "w", std::nan(""));

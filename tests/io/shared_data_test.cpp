@@ -54,5 +54,39 @@ TEST(SharedData, EveryMeshComesBackBitForBit) {
   EXPECT_GT(n, 0);
 }
 
+// Files that the OpenVolumeMesh library wrote, and variations of them, t_*.
+TEST(SharedData, FilesOfOpenVolumeMesh) {
+  const fs::path data = HEXWEFT_SHARED_DATA, folder = data / "formats";
+  if (!fs::exists(folder)) GTEST_SKIP() << folder << " is not there";
+  HexMesh bone = read_hex_mesh(data / "octree" / "bone.vtk");
+  property_registry<VertexTag>(bone)->erase("fixed");
+  for (const char* name : {"bone.ovm", "bone.ovmb"}) {
+    SCOPED_TRACE(name);
+    const HexMesh mesh = read_hex_mesh(folder / name);
+    ASSERT_EQ(mesh.n_cells(), bone.n_cells());
+    for (VertexHandle v : bone.vertices()) EXPECT_EQ(mesh.point(v), bone.point(v));
+    for (CellHandle c : bone.cells()) EXPECT_EQ(mesh.vertices(c), bone.vertices(c));
+    // Edges and faces too are numbered as the library does.
+    const std::string file = read_file(folder / "bone.ovm");
+    const std::string text = write_hex_mesh_text(bone, {.format = "ovm"});
+    EXPECT_EQ(file.substr(0, text.size()), text);
+  }
+  const std::vector<std::string> kRefused{"t_edgeoffset1.ovmb", "t_noeof.ovmb", "t_tet.ovmb",
+                                          "t_unkmand.ovmb"};
+  int n = 0;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename();
+    SCOPED_TRACE(name);
+    const bool refused = std::find(kRefused.begin(), kRefused.end(), name) != kRefused.end();
+    if (refused) {
+      EXPECT_THROW(read_hex_mesh(entry.path()), FormatError);
+    } else {
+      EXPECT_GT(read_hex_mesh(entry.path()).n_cells(), 0);
+    }
+    ++n;
+  }
+  EXPECT_GT(n, 0);
+}
+
 }  // namespace
 }  // namespace hexweft::test

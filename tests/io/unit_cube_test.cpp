@@ -1,5 +1,6 @@
 // Where each format puts which corner of a cell.
 #include "io/formats.h"
+#include "tests/io/ovm_samples.h"
 #include "tests/io/sample_meshes.h"
 
 namespace hexweft::test {
@@ -18,7 +19,9 @@ const std::vector<CubeFile> kCubes{
     {"medit",
      "MeshVersionFormatted 2\nDimension 3\nVertices\n8\n"
      "0 0 0 0\n1 0 0 0\n1 1 0 0\n0 1 0 0\n0 0 1 0\n1 0 1 0\n1 1 1 0\n0 1 1 0\n"
-     "Hexahedra\n1\n1 2 3 4 5 6 7 8 0\nEnd\n"}};
+     "Hexahedra\n1\n1 2 3 4 5 6 7 8 0\nEnd\n"},
+    {"ovm", kOvmCube},
+    {"ovmb", ovmb_cube()}};
 
 TEST(UnitCube, EveryFormatHasOne) {
   for (const Format& format : formats()) {
