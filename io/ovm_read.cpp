@@ -152,14 +152,7 @@ void OvmReader::make_hexahedra(std::size_t first_cell) {
     for (int i = 0; i < cell; ++i) in_.peek(), in_.rest_of_line();
     in_.fail(start_of_row(), "polyhedron " + std::to_string(cell) + " " + problem);
   };
-  data_.cells.reserve(topology_.cells.size());
-  for (int c = 0; c < static_cast<int>(topology_.cells.size()); ++c) {
-    std::string problem;
-    data_.cells.push_back(ovm_cell_corners(topology_, c, problem));
-    if (!problem.empty()) fail(c, problem);
-  }
-  check_cells(data_, 0, fail);
-  note_loose_faces(topology_, data_.notes);
+  add_hexahedra(topology_, data_, fail);
 }
 
 void OvmReader::read_property() {

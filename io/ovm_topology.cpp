@@ -129,11 +129,8 @@ int above(const std::array<Quad, 6>& quads, int vertex) {
   return result;
 }
 
-}  // namespace
-
-OvmTopology make_ovm_topology(const HexMesh& mesh) { return TopologyBuilder(mesh).build(); }
-
-std::array<int, 8> ovm_cell_corners(const OvmTopology& topology, int cell, std::string& problem) {
+/// In VTK order. \param problem  what is wrong if the half-faces do not bound a hexahedron, else untouched
+std::array<int, 8> corners_of(const OvmTopology& topology, int cell, std::string& problem) {
   std::array<int, 8> corners{};
   std::array<Quad, 6> quads;
   for (int i = 0; i < kSides; ++i) {
@@ -170,6 +167,22 @@ void note_loose_faces(const OvmTopology& topology, std::vector<std::string>& not
   if (n > 0) {
     notes.push_back(std::to_string(n) + " faces that no hexahedron has were left out");
   }
+}
+
+}  // namespace
+
+OvmTopology make_ovm_topology(const HexMesh& mesh) { return TopologyBuilder(mesh).build(); }
+
+void add_hexahedra(const OvmTopology& topology, MeshData& data,
+                   const std::function<void(int cell, const std::string& problem)>& fail) {
+  data.cells.reserve(topology.cells.size());
+  for (int c = 0; c < static_cast<int>(topology.cells.size()); ++c) {
+    std::string problem;
+    data.cells.push_back(corners_of(topology, c, problem));
+    if (!problem.empty()) fail(c, problem);
+  }
+  check_cells(data, 0, fail);
+  note_loose_faces(topology, data.notes);
 }
 
 std::size_t count(OvmEntity entity, std::size_t n_vertices, const OvmTopology& topology) {

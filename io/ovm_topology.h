@@ -11,9 +11,11 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <string>
 #include <vector>
 
+#include "io/mesh_data.h"
 #include "io/ovm_types.h"
 #include "ovm/hex_mesh.h"
 
@@ -29,13 +31,11 @@ struct OvmTopology {
 /// and faces come in the order in which the cells meet them.
 OvmTopology make_ovm_topology(const HexMesh& mesh);
 
-/// The corners of a cell in VTK order.
-/// \param problem  what is wrong if the half-faces do not bound a hexahedron, else untouched
-/// \pre every index is within its range
-std::array<int, 8> ovm_cell_corners(const OvmTopology& topology, int cell, std::string& problem);
-
-/// Appends a note of how many faces no cell has, if there are any.
-void note_loose_faces(const OvmTopology& topology, std::vector<std::string>& notes);
+/// Makes the cells of the mesh; faces that none of them has are counted in the notes.
+/// \param fail  called with the first cell that is no hexahedron, and what is wrong with it; throws
+/// \pre every index is within its range, and the points of the mesh are there
+void add_hexahedra(const OvmTopology& topology, MeshData& data,
+                   const std::function<void(int cell, const std::string& problem)>& fail);
 
 /// How many values a property has in a file of so many vertices.
 std::size_t count(OvmEntity entity, std::size_t n_vertices, const OvmTopology& topology);

@@ -38,7 +38,9 @@ class OvmbReader {
     while (!ended_) read_chunk();
     if (in_.remaining() > 0) in_.fail(in_.offset(), "expected nothing after the chunk \"EOF \"");
     check_counts();
-    make_hexahedra();
+    add_hexahedra(topology_, data_, [&](int cell, const std::string& problem) {
+      in_.fail(cells_at_, "cell " + std::to_string(cell) + " " + problem);
+    });
     for (const PropertyOfFile& property : properties_) keep(property);
     return std::move(data_);
   }
@@ -57,7 +59,6 @@ class OvmbReader {
   void read_values();
   DataArray read_numbers(const OvmType& type, std::size_t rows, bool packed);
   void check_counts();
-  void make_hexahedra();
   void keep(const PropertyOfFile& property);
 
   ByteScanner in_;
@@ -301,20 +302,6 @@ void OvmbReader::check_counts() {
     }
   }
   if (topology_.cells.empty()) in_.fail(40, "expected hexahedra, found none");
-}
-
-void OvmbReader::make_hexahedra() {
-  const auto fail = [&](int cell, const std::string& problem) {
-    in_.fail(cells_at_, "cell " + std::to_string(cell) + " " + problem);
-  };
-  data_.cells.reserve(topology_.cells.size());
-  for (int c = 0; c < static_cast<int>(topology_.cells.size()); ++c) {
-    std::string problem;
-    data_.cells.push_back(ovm_cell_corners(topology_, c, problem));
-    if (!problem.empty()) fail(c, problem);
-  }
-  check_cells(data_, 0, fail);
-  note_loose_faces(topology_, data_.notes);
 }
 
 void OvmbReader::keep(const PropertyOfFile& property) {
