@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "io/little_endian.h"
+#include "io/binary_numbers.h"
 #include "ovm/errors.h"
 
 namespace hexweft::detail {
@@ -40,7 +40,7 @@ class ByteScanner {
   /// A number of 1 to 8 bytes, in [least, most].
   std::uint64_t number(int bytes, const std::string& what, std::uint64_t least = 0,
                        std::uint64_t most = UINT64_MAX) {
-    const std::uint64_t value = load_little_endian(take(bytes, what).data(), bytes);
+    const std::uint64_t value = load_unsigned(take(bytes, what).data(), bytes);
     if (value < least || value > most) {
       fail(at_ - bytes, "expected " + what +
                             (least == most ? " " + std::to_string(least)

@@ -273,15 +273,13 @@ DataArray OvmbReader::read_numbers(const OvmType& type, std::size_t rows, bool p
   }
   const int width = std::max(type.bytes, 1);
   for (std::size_t i = 0; i < n; ++i) {
-    const std::uint64_t raw = load_little_endian(bytes.data() + i * width, width);
+    const char* p = bytes.data() + i * width;
     if (type.kind == ValueKind::real) {
-      array.reals.push_back(width == 4 ? std::bit_cast<float>(static_cast<std::uint32_t>(raw))
-                                       : std::bit_cast<double>(raw));
+      array.reals.push_back(load_real(p, width));
       continue;
     }
-    const int unused = 64 - 8 * width;
-    array.integers.push_back(type.is_signed ? static_cast<std::int64_t>(raw << unused) >> unused
-                                            : static_cast<std::int64_t>(raw));
+    array.integers.push_back(type.is_signed ? load_signed(p, width)
+                                            : static_cast<std::int64_t>(load_unsigned(p, width)));
     if (!type.is_signed && array.integers.back() < 0) {
       in_.fail(at + i * width, "found an integer beyond 2^63");
     }

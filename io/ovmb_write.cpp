@@ -2,7 +2,7 @@
 #include <string>
 #include <string_view>
 
-#include "io/little_endian.h"
+#include "io/binary_numbers.h"
 #include "io/ovm.h"
 #include "io/ovm_topology.h"
 #include "io/ovm_types.h"

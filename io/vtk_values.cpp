@@ -6,6 +6,8 @@
 #include <cstring>
 #include <limits>
 
+#include "io/binary_numbers.h"
+
 namespace hexweft::detail {
 namespace {
 
@@ -28,25 +30,6 @@ constexpr std::array<VtkType, 15> kTypes{{
     {"double", ValueKind::real, 8, true},
 }};
 
-std::uint64_t load_big_endian(const char* p, int bytes) {
-  std::uint64_t value = 0;
-  for (int i = 0; i < bytes; ++i) value = value << 8 | static_cast<unsigned char>(p[i]);
-  return value;
-}
-
-double load_real(const char* p, int bytes) {
-  const std::uint64_t bits = load_big_endian(p, bytes);
-  return bytes == 4 ? std::bit_cast<float>(static_cast<std::uint32_t>(bits))
-                    : std::bit_cast<double>(bits);
-}
-
-std::int64_t load_integer(const char* p, const VtkType& type) {
-  const int unused_bits = 64 - 8 * type.bytes;
-  const std::uint64_t high = load_big_endian(p, type.bytes) << unused_bits;
-  return type.is_signed ? static_cast<std::int64_t>(high) >> unused_bits
-                        : static_cast<std::int64_t>(high >> unused_bits);
-}
-
 DataArray read_binary(TextScanner& in, const VtkBlock& block, const VtkType& type,
                       std::size_t count) {
   const std::size_t per_byte = type.bytes == 0 ? 8 : 1, width = std::max(type.bytes, 1);
@@ -61,12 +44,17 @@ DataArray read_binary(TextScanner& in, const VtkBlock& block, const VtkType& typ
   array.kind = type.kind;
   if (type.kind == ValueKind::real) {
     array.reals.resize(count);
-    for (std::size_t i = 0; i < count; ++i) array.reals[i] = load_real(p + i * width, type.bytes);
+    for (std::size_t i = 0; i < count; ++i)
+      array.reals[i] = load_real(p + i * width, type.bytes, std::endian::big);
   } else {
     array.integers.resize(count);
     for (std::size_t i = 0; i < count; ++i) {
-      array.integers[i] = type.kind == ValueKind::bit ? p[i / 8] >> (7 - i % 8) & 1
-                                                      : load_integer(p + i * width, type);
+      const char* at = p + i * width;
+      array.integers[i] =
+          type.kind == ValueKind::bit ? p[i / 8] >> (7 - i % 8) & 1
+          : type.is_signed
+              ? load_signed(at, type.bytes, std::endian::big)
+              : static_cast<std::int64_t>(load_unsigned(at, type.bytes, std::endian::big));
       if (!type.is_signed && array.integers[i] < 0) {
         in.fail(block.header, block.title + ": number " + std::to_string(i) + " is beyond 2^63");
       }
