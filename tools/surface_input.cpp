@@ -4,13 +4,17 @@
 
 #include "io/file.h"
 #include "io/hex_mesh_io.h"
-#include "optimize/surface_io.h"
+#include "io/surface_io.h"
 
 namespace hexweft::cli {
 ReferenceSurface read_surface_input(const std::filesystem::path& path,
                                     std::vector<std::string>& notes,
                                     const FeatureOptions& features) {
-  if (is_surface_file(path)) return read_surface(path, kNormalAngleDeg, features);
+  if (is_surface_file(path)) {
+    SurfaceMesh surface = read_surface_mesh(path);
+    notes.insert(notes.end(), surface.notes.begin(), surface.notes.end());
+    return {std::move(surface.points), std::move(surface.triangles), kNormalAngleDeg, features};
+  }
   ReadReport report;
   const HexMesh mesh = read_hex_mesh(path, {}, &report);
   notes.insert(notes.end(), report.notes.begin(), report.notes.end());

@@ -1,0 +1,124 @@
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "io/byte_scanner.h"
+#include "io/polygon_soup.h"
+#include "io/text_scanner.h"
+
+namespace hexweft::detail {
+namespace {
+
+constexpr std::size_t kHeader = 84, kTriangle = 50;  // bytes of a binary file
+
+/// Triangles that come with the coordinates of their corners: equal ones are one point.
+class PointMerger {
+ public:
+  explicit PointMerger(PolygonSoup& soup) : soup_(soup) {}
+  int index(const Eigen::Vector3d& p) {
+    const std::array<double, 3> key{p[0] + 0.0, p[1] + 0.0, p[2] + 0.0};  // -0 becomes 0
+    const auto [it, is_new] = index_.try_emplace(key, static_cast<int>(soup_.points.size()));
+    if (is_new) soup_.points.push_back(p);
+    return it->second;
+  }
+
+ private:
+  PolygonSoup& soup_;
+  std::map<std::array<double, 3>, int> index_;
+};
+
+/// \pre the size of the file is that of so many triangles
+PolygonSoup read_binary(std::string_view bytes, const std::string& path) {
+  PolygonSoup soup;
+  PointMerger merger(soup);
+  ByteScanner in(bytes, path);
+  in.take(kHeader, "a header");
+  const std::size_t n = in.remaining() / kTriangle;
+  for (std::size_t i = 0; i < n; ++i) {
+    in.take(12, "a normal");
+    std::vector<int> triangle;
+    for (int k = 0; k < 3; ++k) {
+      const std::size_t at = in.offset();
+      const char* numbers = in.take(12, "a point").data();
+      const Eigen::Vector3d p(load_real(numbers, 4), load_real(numbers + 4, 4),
+                              load_real(numbers + 8, 4));
+      if (!p.allFinite()) {
+        in.fail(at, "expected finite coordinates of triangle " + std::to_string(i) +
+                        ", found another value");
+      }
+      triangle.push_back(merger.index(p));
+    }
+    soup.polygons.push_back(std::move(triangle));
+    in.take(2, "an attribute");
+  }
+  return soup;
+}
+
+class StlTextReader {
+ public:
+  StlTextReader(std::string_view text, const std::string& path) : in_(text, path), merger_(soup_) {}
+
+  PolygonSoup read() {
+    do {
+      expect("solid");
+      in_.rest_of_line();  // its name
+      while (lower_case(in_.peek()) != "endsolid") read_triangle();
+      in_.rest_of_line();
+    } while (!in_.at_end());
+    return std::move(soup_);
+  }
+
+ private:
+  void expect(const char* word) {
+    if (lower_case(in_.peek()) != word) in_.fail_expected(word);
+    in_.next();
+  }
+  void read_triangle() {
+    expect("facet");
+    expect("normal");
+    for (int k = 0; k < 3; ++k) in_.next();  // which may be no numbers
+    expect("outer");
+    expect("loop");
+    std::vector<int> triangle;
+    for (int k = 0; k < 3; ++k) {
+      expect("vertex");
+      triangle.push_back(merger_.index(read_point()));
+    }
+    expect("endloop");
+    expect("endfacet");
+    soup_.polygons.push_back(std::move(triangle));
+  }
+  Eigen::Vector3d read_point() {
+    Eigen::Vector3d p;
+    for (double& x : p) {
+      const std::size_t before = (in_.peek(), in_.offset());
+      if (!in_.read(x) || !std::isfinite(x)) {
+        in_.seek(before);
+        in_.fail_expected("a finite coordinate of triangle " +
+                          std::to_string(soup_.polygons.size()));
+      }
+    }
+    return p;
+  }
+
+  TextScanner in_;
+  PolygonSoup soup_;
+  PointMerger merger_;
+};
+
+}  // namespace
+
+// By the size, as the header of a binary file may begin like a text.
+PolygonSoup read_stl(std::string_view text, const std::string& path) {
+  const bool has_header = text.size() >= kHeader;
+  const std::size_t n = has_header ? load_unsigned(text.data() + kHeader - 4, 4) : 0;
+  if (has_header && text.size() == kHeader + kTriangle * n) return read_binary(text, path);
+  if (lower_case(TextScanner(text, path).peek()) == "solid") {
+    return StlTextReader(text, path).read();
+  }
+  throw FormatError(path + ": expected a text that starts with solid, or " +
+                    std::to_string(kHeader + kTriangle * n) + " bytes of " + std::to_string(n) +
+                    " triangles, found " + std::to_string(text.size()) + " bytes");
+}
+
+}  // namespace hexweft::detail
