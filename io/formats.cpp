@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "io/gmsh.h"
 #include "io/medit.h"
 #include "io/ovm.h"
 #include "io/text_scanner.h"
@@ -11,7 +12,7 @@
 namespace hexweft {
 
 std::span<const Format> formats() {
-  static constexpr std::array<Format, 4> kFormats{{
+  static constexpr std::array<Format, 5> kFormats{{
       {"vtk", ".vtk", "legacy VTK, text or binary, with point and cell data", true, is_vtk_legacy,
        read_vtk_legacy, write_vtk_legacy},
       {"medit", ".mesh", "Medit, text, with references", false, is_medit, read_medit, write_medit},
@@ -19,6 +20,8 @@ std::span<const Format> formats() {
        read_ovm, write_ovm},
       {"ovmb", ".ovmb", "OpenVolumeMesh, binary, with numbers on vertices and cells", true, is_ovmb,
        read_ovmb, write_ovmb},
+      {"gmsh", ".msh", "Gmsh, text or binary, with tags and node and element data", true, is_gmsh,
+       read_gmsh, write_gmsh},
   }};
   return kFormats;
 }

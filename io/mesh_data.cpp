@@ -76,26 +76,29 @@ void add_array(std::vector<DataArray>& arrays, DataArray array, std::vector<std:
 }
 
 void check_cells(const MeshData& data, int base,
-                 const std::function<void(int cell, const std::string& problem)>& fail) {
+                 const std::function<void(int cell, const std::string& problem)>& fail,
+                 const std::function<std::string(int vertex)>& name) {
   // The kernel walks the cells of a vertex or edge; a file that piles all its cells on a few
   // vertices would make that quadratic.
   constexpr int kMostCellsAtVertex = 4096;
   std::vector<int> cells_at(data.points.size(), 0);
-  const auto name = [&](int v) { return "vertex " + std::to_string(std::int64_t{v} + base); };
+  const auto name_of = [&](int v) {
+    return name ? name(v) : "vertex " + std::to_string(std::int64_t{v} + base);
+  };
   const int n_points = static_cast<int>(data.points.size());
   for (int c = 0; c < static_cast<int>(data.cells.size()); ++c) {
     const auto& cell = data.cells[c];
     for (int i = 0; i < kCorners; ++i) {
       const int v = cell[i];
       if (v < 0 || v >= n_points) {
-        fail(c, "uses " + name(v) + ", expected one of [" + std::to_string(base) + ", " +
+        fail(c, "uses " + name_of(v) + ", expected one of [" + std::to_string(base) + ", " +
                     std::to_string(n_points - 1 + base) + "]");
       }
       if (std::find(cell.begin(), cell.begin() + i, v) != cell.begin() + i) {
-        fail(c, "uses " + name(v) + " twice, expected 8 different ones");
+        fail(c, "uses " + name_of(v) + " twice, expected 8 different ones");
       }
       if (++cells_at[v] > kMostCellsAtVertex) {
-        fail(c, "is one of more than " + std::to_string(kMostCellsAtVertex) + " at " + name(v));
+        fail(c, "is one of more than " + std::to_string(kMostCellsAtVertex) + " at " + name_of(v));
       }
     }
   }

@@ -31,8 +31,10 @@ void keep_rows(DataArray& array, const std::vector<int>& rows);
 /// Calls `fail(cell, problem)`, which throws, at the first cell that no mesh can hold: an index out
 /// of range or given twice, or a vertex crowded by more cells than any real mesh has. \param base
 /// what the file calls its first vertex, 0 or 1; for the message
+/// \param name  what the file calls a vertex; by default "vertex", its index and `base` added
 void check_cells(const MeshData& data, int base,
-                 const std::function<void(int cell, const std::string& problem)>& fail);
+                 const std::function<void(int cell, const std::string& problem)>& fail,
+                 const std::function<std::string(int vertex)>& name = {});
 
 /// Builds the mesh; points and cells keep the file's order. Where *every* cell has a negative
 /// volume the file numbers its corners mirrored, and they are turned into VTK order; a mix stays as

@@ -1,7 +1,7 @@
 // Random damage to files.
 #pragma once
 
-#include "tests/io/sample_meshes.h"
+#include "tests/io/gmsh_samples.h"
 
 namespace hexweft::test {
 
@@ -13,18 +13,25 @@ inline std::vector<std::string> intact_files() {
   named_property<CellTag, Eigen::Vector3d>(mesh, "axis", Eigen::Vector3d(0, 0, 1));
   named_property<CellTag, Eigen::VectorXd>(mesh, "stress", Eigen::VectorXd::Ones(6));
   const std::string cube = "POINTS 8 float\n0 0 0 1 0 0 1 1 0 0 1 0 0 0 1 1 0 1 1 1 1 0 1 1\n";
-  return {write_hex_mesh_text(mesh),
-          write_hex_mesh_text(mesh, {.binary = true}),
-          write_hex_mesh_text(mesh, {.format = "medit"}),
-          write_hex_mesh_text(mesh, {.format = "ovm"}),
-          write_hex_mesh_text(mesh, {.format = "ovmb"}),
-          "# vtk DataFile Version 5.1\nx\nASCII\nFIELD FieldData 1\nTIME 1 1 double\n0.5\n"
-          "DATASET UNSTRUCTURED_GRID\n" +
-              cube +
-              "METADATA\nINFORMATION 0\n\nCELLS 3 10\nOFFSETS vtktypeint64\n0 8 10\n"
-              "CONNECTIVITY vtktypeint64\n0 1 2 3 4 5 6 7 0 1\nCELL_TYPES 2\n12\n3\n"
-              "CELL_DATA 2\nCOLOR_SCALARS rgb 3\n1 0 0 0 1 0\nLOOKUP_TABLE t 1\n1 1 1 1\n"
-              "FIELD f 2\nid 1 2 long\n4 5\nnames 1 2 string\na\nb\n"};
+  std::vector<std::string> files{
+      write_hex_mesh_text(mesh),
+      write_hex_mesh_text(mesh, {.binary = true}),
+      write_hex_mesh_text(mesh, {.format = "medit"}),
+      write_hex_mesh_text(mesh, {.format = "ovm"}),
+      write_hex_mesh_text(mesh, {.format = "ovmb"}),
+      "# vtk DataFile Version 5.1\nx\nASCII\nFIELD FieldData 1\nTIME 1 1 double\n0.5\n"
+      "DATASET UNSTRUCTURED_GRID\n" +
+          cube +
+          "METADATA\nINFORMATION 0\n\nCELLS 3 10\nOFFSETS vtktypeint64\n0 8 10\n"
+          "CONNECTIVITY vtktypeint64\n0 1 2 3 4 5 6 7 0 1\nCELL_TYPES 2\n12\n3\n"
+          "CELL_DATA 2\nCOLOR_SCALARS rgb 3\n1 0 0 0 1 0\nLOOKUP_TABLE t 1\n1 1 1 1\n"
+          "FIELD f 2\nid 1 2 long\n4 5\nnames 1 2 string\na\nb\n",
+      write_hex_mesh_text(mesh, {.format = "gmsh"}),
+      write_hex_mesh_text(mesh, {.format = "gmsh", .binary = true})};
+  for (const char* version : kGmshVersions) {
+    for (GmshCoding coding : kGmshCodings) files.push_back(gmsh_tower(version, coding));
+  }
+  return files;
 }
 
 /// One to four changes: bytes overwritten, removed, repeated, replaced by a telling number or word,
@@ -49,6 +56,8 @@ inline std::string mutate(std::string text, const std::vector<std::string>& othe
                                                "FIELD",
                                                "string",
                                                "bit",
+                                               "$Nodes",
+                                               "$EndElements",
                                                "\n",
                                                std::string(1, '\0'),
                                                " "};

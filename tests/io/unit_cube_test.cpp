@@ -21,7 +21,11 @@ const std::vector<CubeFile> kCubes{
      "0 0 0 0\n1 0 0 0\n1 1 0 0\n0 1 0 0\n0 0 1 0\n1 0 1 0\n1 1 1 0\n0 1 1 0\n"
      "Hexahedra\n1\n1 2 3 4 5 6 7 8 0\nEnd\n"},
     {"ovm", kOvmCube},
-    {"ovmb", ovmb_cube()}};
+    {"ovmb", ovmb_cube()},
+    {"gmsh",
+     "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n8\n"
+     "1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0 0 1\n6 1 0 1\n7 1 1 1\n8 0 1 1\n$EndNodes\n"
+     "$Elements\n1\n1 5 2 0 0 1 2 3 4 5 6 7 8\n$EndElements\n"}};
 
 TEST(UnitCube, EveryFormatHasOne) {
   for (const Format& format : formats()) {
