@@ -59,8 +59,9 @@ void write_directly(const fs::path& path, std::string_view content) {
 // Opens a new file beside the target, under a name nobody has.
 fs::path open_beside(const fs::path& target, mode_t mode, int& fd) {
   for (int i = 0;; ++i) {
-    fs::path name = target;
-    name += ".part-" + std::to_string(::getpid()) + "-" + std::to_string(i);
+    // Not made of the target's name, which may be as long as names can be.
+    const fs::path name = target.parent_path() /
+                          (".hexweft-part-" + std::to_string(::getpid()) + "-" + std::to_string(i));
     fd = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
     if (fd >= 0 || errno != EEXIST) return name;
   }

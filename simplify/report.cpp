@@ -39,6 +39,26 @@ std::string_view name(StopReason reason) {
   return names[static_cast<std::size_t>(reason)];
 }
 
+namespace {
+
+std::string_view in_words(StopReason reason) {
+  switch (reason) {
+    case StopReason::nothing_left:
+      return "no candidate is left";
+    case StopReason::no_progress:
+      return "too many trials failed in a row";
+    case StopReason::target_reached:
+      return "what was asked for is reached";
+    case StopReason::out_of_time:
+      return "the time is over";
+    case StopReason::interrupted:
+      break;
+  }
+  return "interrupted: this is the mesh so far";
+}
+
+}  // namespace
+
 std::string SimplifyReport::brief() const {
   std::string s = fmt::format("{:>12} {:>10} {:>10}\n", "", "before", "after");
   const auto row = [&](const char* label, auto a, auto b, const char* format) {
@@ -52,7 +72,7 @@ std::string SimplifyReport::brief() const {
   row("ASJ", before.mean_scaled_jacobian, after.mean_scaled_jacobian, "{:.4f}");
   row("HR %", 0.0, 100 * hausdorff_ratio, "{:.3f}");
   row("time s", 0.0, seconds, "{:.2f}");
-  return s;
+  return s + fmt::format("{:>12}  {}\n", "stopped", in_words(stopped));
 }
 
 namespace {

@@ -70,7 +70,7 @@ struct SimplifyReport {
     return before.components > 0 ? 1 - static_cast<double>(after.components) / before.components
                                  : 0;
   }
-  std::string brief() const;          ///< a table for people, before and after side by side
+  std::string brief() const;          ///< for people: before and after side by side, why it ended
   std::string profile_table() const;  ///< for people: stages of the run, fate of the trials
   nlohmann::ordered_json json() const;
 };

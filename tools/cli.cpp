@@ -1,5 +1,6 @@
 #include "tools/cli.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
@@ -82,6 +83,11 @@ int n_inverted_if_rounded(const HexMesh& mesh, int digits) {
   return n;
 }
 
+// Whether the words of `part` are among those of `whole`, one after the other.
+bool has_words(const std::string& whole, const std::string& part) {
+  return ("_" + whole + "_").find("_" + part + "_") != std::string::npos;
+}
+
 // Large arrays come and go with every pass over a mesh. To get their pages from the system each time
 // takes up to an eighth of a run.
 void keep_freed_memory() {
@@ -115,6 +121,25 @@ CLI::Validator in_range(double least, double most) {
     return "expected a number in " + range + ", found \"" + text + "\"";
   };
   return CLI::Validator(check, "in " + range);
+}
+
+// The libraries name an option as their struct does; who typed --hausdorff is told of that, not of
+// hausdorff_limit_rel.
+std::string Program::by_flag(const std::string& message) const {
+  const std::size_t end = message.find(" = ");
+  if (end == std::string::npos || message.find(' ') != end) return message;
+  const auto words = [](std::string text) {
+    for (char& c : text) c = c == '-' || c == '.' ? '_' : c;
+    return text;
+  };
+  std::string flag;
+  for (const CLI::Option* option : app_.get_options()) {
+    for (const std::string& name : option->get_lnames()) {
+      const bool is_meant = has_words(words(message.substr(0, end)), words(name));
+      if (is_meant && name.size() > flag.size()) flag = name;
+    }
+  }
+  return flag.empty() ? message : "--" + flag + message.substr(end);
 }
 
 Program::Program(const std::string& name, const std::string& summary)
@@ -198,7 +223,7 @@ int Program::run(int argc, char** argv, const std::function<int()>& body) {
     if (error.get_exit_code() == 0) return app_.exit(error);  // --help, --version
     return fail(kWrongInput, std::string(error.what()) + " (see " + name_ + " --help)");
   } catch (const InputError& error) {
-    return fail(kWrongInput, error.what());
+    return fail(kWrongInput, by_flag(error.what()));
   } catch (const FormatError& error) {
     return fail(kFileProblem, error.what());
   } catch (const std::bad_alloc&) {

@@ -78,6 +78,7 @@ class Program {
 
  private:
   void check_paths() const;
+  std::string by_flag(const std::string& message) const;
   bool is_output(const std::string& path) const;
 
   CLI::App app_;

@@ -1,5 +1,6 @@
 // hexweft-info: what a mesh is, whether it is valid, and what is wrong with it and where.
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -78,8 +79,9 @@ Json figures_of(const HexMesh& mesh, bool topology_is_valid) {
 }
 
 std::string text_of(const Json& value) {
-  if (value.is_number_float()) return fmt::format("{:.4f}", value.get<double>());
-  if (value.is_null()) return "-";
+  const bool is_real = value.is_number_float();
+  if (value.is_null() || (is_real && !std::isfinite(value.get<double>()))) return "-";
+  if (is_real) return fmt::format("{:.4f}", value.get<double>());
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
 

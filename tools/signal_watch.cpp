@@ -27,6 +27,7 @@ SignalWatch::SignalWatch(std::stop_source source)
       }) {
   std::signal(SIGINT, remember_signal);
   std::signal(SIGTERM, remember_signal);
+  std::signal(SIGHUP, remember_signal);
 }
 
 }  // namespace hexweft::cli

@@ -210,8 +210,6 @@ int run(cli::Program& program, Request& request) {
   program.say(report.brief());
   if (!report.attempts.empty()) program.say(text_of(report.attempts));
   if (request.profile) std::cerr << report.profile_table();
-  if (report.stopped == StopReason::interrupted)
-    program.say("interrupted: this is the mesh so far");
   return cli::kDone;
 }
 

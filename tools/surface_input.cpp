@@ -32,10 +32,11 @@ FeatureOptions parse_features(const std::string& text) {
   FeatureOptions options = {.mode = FeatureMode::angle};
   const char* end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, options.angle_deg);
-  if (error != std::errc() || stop != end) {
-    throw InputError("--features = " + text + ", expected auto, off or an angle in degrees");
+  const bool is_angle = error == std::errc() && stop == end;
+  if (!is_angle || !(options.angle_deg > 0 && options.angle_deg <= 180)) {
+    throw InputError("--features = " + text +
+                     ", expected auto, off or an angle in (0, 180] degrees");
   }
-  validate(options);
   return options;
 }
 

@@ -93,6 +93,13 @@ TEST_F(WriteFile, ABadRequestLeavesTheTargetAlone) {
   EXPECT_EQ(n_entries(), 1);
 }
 
+TEST_F(WriteFile, ANameMayBeAsLongAsNamesCanBe) {
+  const std::string name(255, 'x');
+  write_file(folder_ / name, "content");
+  EXPECT_EQ(read_file(folder_ / name), "content");
+  EXPECT_EQ(n_entries(), 1);
+}
+
 TEST_F(WriteFile, TheExtensionChoosesTheFormat) {
   EXPECT_EQ(write_hex_mesh(folder_ / "a.MESH", unit_cube()).format, "medit");
   EXPECT_THAT(read_file(folder_ / "a.MESH"), testing::StartsWith("MeshVersionFormatted"));

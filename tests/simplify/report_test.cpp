@@ -48,7 +48,8 @@ TEST(Report, RateAndJson) {
   EXPECT_EQ(j["stopped"], "target_reached");
   EXPECT_EQ(j["sheets"]["accepted"], 7);
   EXPECT_EQ(j["sheets"]["refused"]["hausdorff"], 3);
-  EXPECT_THAT(r.brief(), testing::AllOf(testing::HasSubstr("200"), testing::HasSubstr("0.7500")));
+  EXPECT_THAT(r.brief(), testing::AllOf(testing::HasSubstr("200"), testing::HasSubstr("0.7500"),
+                                        testing::HasSubstr("no candidate is left")));
 }
 
 TEST(Report, CountsOfTrialsReadBack) {

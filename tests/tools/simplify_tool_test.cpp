@@ -199,6 +199,9 @@ TEST_F(SimplifyTool, CheckpointThatDoesNotFitIsRefusedInASentence) {
     EXPECT_THAT(result.err, IsSentenceOf("hexweft-simplify"));
     EXPECT_THAT(result.err, testing::HasSubstr(why));
   };
+  refuses("in.vtk --hausdorff 2", 2, "--hausdorff = 2, expected (0, 1]");
+  refuses("in.vtk --rate 2", 2, "--rate = 2, expected [0, 1]");
+  refuses("in.vtk --features 200", 2, "--features = 200, expected auto, off or an angle");
   refuses("grid.vtk --resume c", 2, "another input");
   refuses("in.vtk --resume c --hausdorff 0.005", 2, "hausdorff_limit_rel = 0.01, not 0.005");
   refuses("in.vtk --resume c --beta 2", 2, "weights.beta");
