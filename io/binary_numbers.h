@@ -2,8 +2,10 @@
 /// Numbers in binary files, of either byte order.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <cstring>
 #include <string>
 
 namespace hexweft::detail {
@@ -36,8 +38,13 @@ inline void append_little_endian(std::string& out, std::uint64_t value, int byte
   for (int i = 0; i < bytes; ++i, value >>= 8) out += static_cast<char>(value & 0xff);
 }
 
-inline void append_little_endian(std::string& out, double value) {
-  append_little_endian(out, std::bit_cast<std::uint64_t>(value), 8);
+/// All bytes of a number.
+template <class T>
+void append_bytes(std::string& out, T value, std::endian order) {
+  char bytes[sizeof(T)];
+  std::memcpy(bytes, &value, sizeof(T));
+  if (order != std::endian::native) std::reverse(bytes, bytes + sizeof(T));
+  out.append(bytes, sizeof(T));
 }
 
 }  // namespace hexweft::detail

@@ -7,10 +7,6 @@
 namespace hexweft::detail {
 namespace {
 
-bool fits_int(std::int64_t value) {
-  return value >= std::numeric_limits<int>::min() && value <= std::numeric_limits<int>::max();
-}
-
 template <class Tag, class T, class RowValue>
 void fill_property(HexMesh& mesh, const DataArray& array, T default_value, RowValue row_value) {
   if (property_registry<Tag>(mesh)->find(array.name)) {
@@ -92,6 +88,13 @@ auto live_handles(const HexMesh& mesh, CellTag*) { return mesh.cells(); }
 
 }  // namespace
 
+bool fits_int(const DataArray& array) {
+  using Limits = std::numeric_limits<int>;
+  return std::all_of(array.integers.begin(), array.integers.end(), [](std::int64_t value) {
+    return value >= Limits::min() && value <= Limits::max();
+  });
+}
+
 template <class Tag>
 void add_property(HexMesh& mesh, const DataArray& array) {
   const auto& integers = array.integers;
@@ -100,7 +103,7 @@ void add_property(HexMesh& mesh, const DataArray& array) {
     add_real_property<Tag>(mesh, array, array.reals);
   } else if (array.kind == ValueKind::bit && k == 1) {
     fill_property<Tag>(mesh, array, false, [&](int i) { return integers[i] != 0; });
-  } else if (std::all_of(integers.begin(), integers.end(), fits_int)) {
+  } else if (fits_int(array)) {
     if (k == 1) {
       fill_property<Tag>(mesh, array, 0, [&](int i) { return static_cast<int>(integers[i]); });
     } else {

@@ -34,6 +34,9 @@ struct DataArray {
 
 namespace detail {
 
+/// Whether every value of an array of integers is an int of 32 bits.
+bool fits_int(const DataArray& array);
+
 /// Makes a named property of the array; row i belongs to element i.
 /// Integers beyond 32 bits with several a place become reals.
 /// \throws InputError if the mesh has a property of that name

@@ -8,13 +8,16 @@
 #include "io/ovm.h"
 #include "io/text_scanner.h"
 #include "io/vtk_legacy.h"
+#include "io/vtu.h"
 
 namespace hexweft {
 
 std::span<const Format> formats() {
-  static constexpr std::array<Format, 5> kFormats{{
+  static constexpr std::array<Format, 6> kFormats{{
       {"vtk", ".vtk", "legacy VTK, text or binary, with point and cell data", true, is_vtk_legacy,
        read_vtk_legacy, write_vtk_legacy},
+      {"vtu", ".vtu", "VTK's XML unstructured grid, text or binary, with point and cell data", true,
+       is_vtu, read_vtu, write_vtu},
       {"medit", ".mesh", "Medit, text, with references", false, is_medit, read_medit, write_medit},
       {"ovm", ".ovm", "OpenVolumeMesh, text, with numbers on vertices and cells", false, is_ovm,
        read_ovm, write_ovm},

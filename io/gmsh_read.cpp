@@ -103,14 +103,14 @@ void GmshReader::read_format() {
 // The number 1 in binary follows the first line.
 void GmshReader::read_byte_order(const GmshSection& section) {
   constexpr std::int64_t kOne = 1, kSwappedOne = 0x01000000;
-  layout_.encoding = GmshEncoding::binary;
+  layout_.is_binary = true;
   GmshValues in = values(section);
   for (int i = 0; i < 3; ++i) in.read_real("a number of the first line");
   in.begin_binary();
   const std::int64_t one = in.read_int(kGmshInts, "the number 1 that tells the byte order");
   in.expect_end();
   if (one == kSwappedOne) {
-    layout_.encoding = GmshEncoding::swapped;
+    layout_.byte_order = std::endian::big;
   } else if (one != kOne) {
     in.fail(in.header(), "$MeshFormat: expected the number 1 that tells the byte order, found " +
                              std::to_string(one));

@@ -1,6 +1,6 @@
 #include "io/gmsh_values.h"
 
-#include <cstring>
+#include "io/binary_numbers.h"
 
 namespace hexweft::detail {
 
@@ -26,27 +26,25 @@ std::vector<GmshSection> split_gmsh_sections(TextScanner in) {
   return sections;
 }
 
-bool GmshValues::load_bytes(void* value, std::size_t n) {
-  if (section_.end < in_.offset() || section_.end - in_.offset() < n) return false;
-  char bytes[8];
-  std::memcpy(bytes, in_.text().data() + in_.offset(), n);
-  if (layout_.encoding == GmshEncoding::swapped) std::reverse(bytes, bytes + n);
-  std::memcpy(value, bytes, n);
+const char* GmshValues::take_bytes(std::size_t n) {
+  if (section_.end < in_.offset() || section_.end - in_.offset() < n) return nullptr;
+  const char* bytes = in_.text().data() + in_.offset();
   in_.seek(in_.offset() + n);
-  return true;
+  return bytes;
 }
 
-bool GmshValues::load(std::int64_t& value, int bytes) {
+bool GmshValues::load(std::int64_t& value, int n_bytes) {
   if (!binary_) return in_.read(value);
-  if (bytes == 8) return load_bytes(&value, sizeof(value));
-  std::int32_t narrow = 0;
-  if (!load_bytes(&narrow, sizeof(narrow))) return false;
-  value = narrow;
-  return true;
+  const char* bytes = take_bytes(n_bytes);
+  if (bytes) value = load_signed(bytes, n_bytes, layout_.byte_order);
+  return bytes != nullptr;
 }
 
 bool GmshValues::load(double& value) {
-  return binary_ ? load_bytes(&value, sizeof(value)) : in_.read(value);
+  if (!binary_) return in_.read(value);
+  const char* bytes = take_bytes(sizeof(value));
+  if (bytes) value = load_real(bytes, sizeof(value), layout_.byte_order);
+  return bytes != nullptr;
 }
 
 GmshEntity GmshValues::read_entity() {

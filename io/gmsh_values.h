@@ -2,6 +2,7 @@
 /// The sections of a Gmsh file and the numbers in them, as text or as binary of either byte order.
 #pragma once
 
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -13,11 +14,11 @@
 namespace hexweft::detail {
 
 enum class GmshVersion { v2, v40, v41 };
-enum class GmshEncoding { text, binary, swapped };  ///< swapped: binary, of the other byte order
 
 struct GmshLayout {
   GmshVersion version = GmshVersion::v2;
-  GmshEncoding encoding = GmshEncoding::text;
+  bool is_binary = false;
+  std::endian byte_order = std::endian::little;
 };
 
 /// What stands between "$Name" and "$EndName".
@@ -58,7 +59,7 @@ class GmshValues {
   bool is_binary() const { return binary_; }
   /// Sections start as text in every file; in a binary one, binary numbers start on the next line.
   void begin_binary() {
-    if (layout_.encoding == GmshEncoding::text) return;
+    if (!layout_.is_binary) return;
     in_.rest_of_line();
     binary_ = true;
   }
@@ -126,9 +127,9 @@ class GmshValues {
       return what;
     }
   }
-  bool load(std::int64_t& value, int bytes);
+  bool load(std::int64_t& value, int n_bytes);
   bool load(double& value);
-  bool load_bytes(void* value, std::size_t n);
+  const char* take_bytes(std::size_t n);  // null if the section has fewer
   [[noreturn]] void fail_expected(const std::string& what);
   [[noreturn]] void fail_found(std::size_t before, const std::string& what,
                                const std::string& found);

@@ -1,10 +1,9 @@
 #include <algorithm>
-#include <bit>
-#include <cstring>
 #include <limits>
 #include <map>
 #include <set>
 
+#include "io/binary_numbers.h"
 #include "io/gmsh.h"
 #include "io/number_text.h"
 
@@ -50,12 +49,7 @@ class GmshWriter {
   template <class T>
   void put(T value) {
     if (options_.binary) {
-      char bytes[sizeof(T)];
-      std::memcpy(bytes, &value, sizeof(T));
-      if constexpr (std::endian::native == std::endian::big) {
-        std::reverse(bytes, bytes + sizeof(T));  // little-endian everywhere, as most files are
-      }
-      out_.append(bytes, sizeof(T));
+      append_bytes(out_, value, std::endian::little);  // everywhere, as most files are
     } else {
       append_number(out_, value, options_.precision);
       out_ += ' ';

@@ -91,7 +91,7 @@ class OvmbWriter {
     std::string payload = span_of(mesh.n_vertices());
     append_little_endian(payload, kOvmbDouble, 4);  // and three bytes of zero
     for (VertexHandle v : mesh.vertices()) {
-      for (double x : mesh.point(v)) append_little_endian(payload, x);
+      for (double x : mesh.point(v)) append_bytes(payload, x, std::endian::little);
     }
     write_chunk(kOvmbVertices, payload);
   }
@@ -123,7 +123,7 @@ class OvmbWriter {
     } else if (array.kind == ValueKind::integer) {
       for (std::int64_t x : array.integers) append_little_endian(payload, x, property.type->bytes);
     } else {
-      for (double x : array.reals) append_little_endian(payload, x);
+      for (double x : array.reals) append_bytes(payload, x, std::endian::little);
     }
     write_chunk(kOvmbValues, payload);
   }

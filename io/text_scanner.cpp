@@ -68,8 +68,8 @@ void TextScanner::fail_expected(const std::string& what) {
   if (found.empty()) {
     while (where > 0 && is_blank(text_[where - 1])) --where;
   }
-  fail(where, "expected " + what + ", found " +
-                  (found.empty() ? std::string("the end of the file") : quoted(found)));
+  fail(where,
+       "expected " + what + ", found " + (found.empty() ? std::string(end_) : quoted(found)));
 }
 
 std::string lower_case(std::string_view word) {

@@ -15,7 +15,9 @@ namespace hexweft::detail {
 /// end of its line. Lines are counted only when an error is reported.
 class TextScanner {
  public:
-  TextScanner(std::string_view text, std::string path) : text_(text), path_(std::move(path)) {}
+  /// \param end  what the end of the text is, for messages
+  TextScanner(std::string_view text, std::string path, const char* end = "the end of the file")
+      : text_(text), path_(std::move(path)), end_(end) {}
 
   std::size_t offset() const { return at_; }
   void seek(std::size_t offset) { at_ = offset; }
@@ -55,6 +57,7 @@ class TextScanner {
 
   std::string_view text_;
   std::string path_;
+  const char* end_;
   std::size_t at_ = 0;
 };
 

@@ -5,13 +5,14 @@
 #include <vector>
 
 #include "io/mesh_data.h"
+#include "io/vtk_grid.h"
 #include "io/vtk_values.h"
 
 namespace hexweft::detail {
 
 class VtkCells {
  public:
-  std::size_t size() const { return first_corner_.size() - 1; }  ///< cells of all types in the file
+  std::size_t size() const { return list_.size(); }  ///< cells of all types in the file
   /// Which cells of the file became the cells of the mesh, in order.
   const std::vector<int>& hexahedra() const { return hexahedra_; }
 
@@ -24,14 +25,11 @@ class VtkCells {
   void split_records(TextScanner& in, const std::vector<std::int64_t>& values,
                      std::int64_t n_cells);
   void read_offsets(TextScanner& in, std::int64_t n_offsets, std::int64_t n_corners);
-  void pick_hexahedra(const TextScanner& in, const std::vector<std::int64_t>& types,
-                      MeshData& data);
   [[noreturn]] void fail_at_cell(const TextScanner& in, int cell, const std::string& problem) const;
 
   VtkBlock corner_block_;
-  bool corners_have_counts_ = false;   // each cell's corners follow their number in the block
-  std::vector<std::int64_t> corners_;  // of all cells, one after the other
-  std::vector<std::size_t> first_corner_{0};  // of each cell, and the end of the last
+  bool corners_have_counts_ = false;  // each cell's corners follow their number in the block
+  VtkCellList list_;
   std::vector<int> hexahedra_;
 };
 

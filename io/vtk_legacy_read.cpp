@@ -1,9 +1,9 @@
-#include <cmath>
 #include <cstdio>
 #include <limits>
 
 #include "io/vtk_attributes.h"
 #include "io/vtk_cells.h"
+#include "io/vtk_grid.h"
 #include "io/vtk_legacy.h"
 #include "io/vtk_values.h"
 
@@ -106,25 +106,15 @@ void VtkReader::read_dataset() {
 
 void VtkReader::read_points() {
   once(have_points_, "POINTS");
-  const std::int64_t n =
-      read_vtk_count(in_, "a number of points", std::numeric_limits<int>::max() / 2);
+  const std::int64_t n = read_vtk_count(in_, "a number of points", kMostVtkPoints);
   const auto type = find_vtk_type(in_.peek());
   if (!type || type->kind == ValueKind::bit) in_.fail_expected("a type of coordinates");
   in_.rest_of_line();
   const VtkBlock block{"POINTS", section_, in_.offset(), binary_};
-  DataArray array = read_vtk_values(in_, block, *type, 3 * static_cast<std::size_t>(n));
-  if (type->kind == ValueKind::integer) {
-    array.reals.assign(array.integers.begin(), array.integers.end());
-  }
-  data_.points.resize(n);
-  for (std::size_t i = 0; i < array.reals.size(); ++i) {
-    if (!std::isfinite(array.reals[i])) {
-      fail_at_value(
-          in_, block, i,
-          "expected finite coordinates, found another value at point " + std::to_string(i / 3));
-    }
-    data_.points[i / 3][i % 3] = array.reals[i];
-  }
+  const DataArray array = read_vtk_values(in_, block, *type, 3 * static_cast<std::size_t>(n));
+  data_.points = points_of(array, [&](std::size_t place, const std::string& problem) {
+    fail_at_value(in_, block, place, problem);
+  });
 }
 
 void VtkReader::read_data_header(bool of_points) {

@@ -1,6 +1,6 @@
-#include <limits>
 #include <utility>
 
+#include "io/binary_numbers.h"
 #include "io/number_text.h"
 #include "io/vtk_attributes.h"
 #include "io/vtk_legacy.h"
@@ -64,7 +64,7 @@ class VtkWriter {
   template <class T>
   void put(T value) {
     if (options_.binary) {
-      append_big_endian(out_, value);
+      append_bytes(out_, value, std::endian::big);
     } else {
       append_number(out_, value, options_.precision);
       out_ += ' ';
@@ -84,10 +84,7 @@ class VtkWriter {
 std::string VtkWriter::type_name(const DataArray& array) {
   if (array.kind == ValueKind::real) return "double";
   if (array.kind == ValueKind::bit) return "bit";
-  for (std::int64_t x : array.integers) {
-    if (x < std::numeric_limits<int>::min() || x > std::numeric_limits<int>::max()) return "long";
-  }
-  return "int";
+  return fits_int(array) ? "int" : "long";
 }
 
 void VtkWriter::write_data(const char* section, int rows, const std::vector<DataArray>& arrays) {

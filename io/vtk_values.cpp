@@ -39,28 +39,9 @@ DataArray read_binary(TextScanner& in, const VtkBlock& block, const VtkType& typ
                               " numbers of type " + std::string(type.name) + ", found " +
                               std::to_string(available * per_byte) + " to the end of the file");
   }
-  const char* p = in.text().data() + in.offset();
-  DataArray array;
-  array.kind = type.kind;
-  if (type.kind == ValueKind::real) {
-    array.reals.resize(count);
-    for (std::size_t i = 0; i < count; ++i)
-      array.reals[i] = load_real(p + i * width, type.bytes, std::endian::big);
-  } else {
-    array.integers.resize(count);
-    for (std::size_t i = 0; i < count; ++i) {
-      const char* at = p + i * width;
-      array.integers[i] =
-          type.kind == ValueKind::bit ? p[i / 8] >> (7 - i % 8) & 1
-          : type.is_signed
-              ? load_signed(at, type.bytes, std::endian::big)
-              : static_cast<std::int64_t>(load_unsigned(at, type.bytes, std::endian::big));
-      if (!type.is_signed && array.integers[i] < 0) {
-        in.fail(block.header, block.title + ": number " + std::to_string(i) + " is beyond 2^63");
-      }
-    }
-  }
-  in.seek(in.offset() + (count + per_byte - 1) / per_byte * width);
+  DataArray array =
+      decode_vtk_values(in, block, type, count, in.text().data() + in.offset(), std::endian::big);
+  in.seek(in.offset() + type.bytes_of(count));
   return array;
 }
 
@@ -124,16 +105,30 @@ void fail_at_value(TextScanner in, const VtkBlock& block, std::size_t index,
   in.fail(in.offset(), message);
 }
 
-template <class T>
-void append_big_endian(std::string& out, T value) {
-  char bytes[sizeof(T)];
-  std::memcpy(bytes, &value, sizeof(T));
-  if constexpr (std::endian::native == std::endian::little) std::reverse(bytes, bytes + sizeof(T));
-  out.append(bytes, sizeof(T));
+DataArray decode_vtk_values(const TextScanner& in, const VtkBlock& block, const VtkType& type,
+                            std::size_t count, const char* bytes, std::endian order) {
+  DataArray array;
+  array.kind = type.kind;
+  if (type.kind == ValueKind::real) {
+    array.reals.resize(count);
+    for (double& real : array.reals) {
+      real = load_real(bytes, type.bytes, order);
+      bytes += type.bytes;
+    }
+    return array;
+  }
+  array.integers.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    array.integers[i] =
+        type.kind == ValueKind::bit ? bytes[i / 8] >> (7 - i % 8) & 1
+        : type.is_signed
+            ? load_signed(bytes + i * type.bytes, type.bytes, order)
+            : static_cast<std::int64_t>(load_unsigned(bytes + i * type.bytes, type.bytes, order));
+    if (!type.is_signed && array.integers[i] < 0) {
+      in.fail(block.header, block.title + ": number " + std::to_string(i) + " is beyond 2^63");
+    }
+  }
+  return array;
 }
-template void append_big_endian(std::string&, std::uint8_t);
-template void append_big_endian(std::string&, std::int32_t);
-template void append_big_endian(std::string&, std::int64_t);
-template void append_big_endian(std::string&, double);
 
 }  // namespace hexweft::detail

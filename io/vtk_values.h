@@ -1,7 +1,8 @@
 /// \file
-/// Numbers of a legacy VTK file, as text or as big-endian binary, in any of its types.
+/// Numbers of VTK's files, as text or binary, in any of their types.
 #pragma once
 
+#include <bit>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,15 +12,19 @@
 
 namespace hexweft::detail {
 
-/// A number type of a legacy VTK file.
+/// A number type of VTK's files.
 struct VtkType {
-  std::string_view name;  ///< in lower case
+  std::string_view name;  ///< of a legacy file in lower case
   ValueKind kind;
   int bytes;  ///< of one number in a binary file; 0: packed bits
   bool is_signed;
+  /// Bytes of so many numbers in a binary file.
+  std::size_t bytes_of(std::size_t count) const {
+    return bytes == 0 ? count / 8 + (count % 8 != 0) : count * bytes;
+  }
 };
 
-/// The type of this name, in any case; empty if there is none.
+/// The type of a legacy file of this name, in any case; empty if there is none.
 std::optional<VtkType> find_vtk_type(std::string_view name);
 
 /// Reads an integer from 0 to `most`. \throws FormatError "expected <what> in [0, <most>], found
@@ -33,7 +38,7 @@ struct VtkBlock {
   bool binary = false;
 };
 
-/// Reads `count` numbers at the cursor. The array has neither name nor components set.
+/// Reads `count` numbers at the cursor, binary ones as big-endian. The array has neither name nor components set.
 /// \throws FormatError at the number that is missing, malformed or too large
 DataArray read_vtk_values(TextScanner& in, const VtkBlock& block, const VtkType& type,
                           std::size_t count);
@@ -42,8 +47,10 @@ DataArray read_vtk_values(TextScanner& in, const VtkBlock& block, const VtkType&
 [[noreturn]] void fail_at_value(TextScanner in, const VtkBlock& block, std::size_t index,
                                 const std::string& message);
 
-/// Appends a number as a big-endian one.
-template <class T>
-void append_big_endian(std::string& out, T value);
+/// The numbers that bytes stand for.
+/// \pre    there are type.bytes_of(count) bytes
+/// \throws FormatError at the header of the block if one is too large
+DataArray decode_vtk_values(const TextScanner& in, const VtkBlock& block, const VtkType& type,
+                            std::size_t count, const char* bytes, std::endian order);
 
 }  // namespace hexweft::detail

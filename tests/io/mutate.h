@@ -2,6 +2,7 @@
 #pragma once
 
 #include "tests/io/gmsh_samples.h"
+#include "tests/io/vtu_files.h"
 
 namespace hexweft::test {
 
@@ -13,6 +14,12 @@ inline std::vector<std::string> intact_files() {
   named_property<CellTag, Eigen::Vector3d>(mesh, "axis", Eigen::Vector3d(0, 0, 1));
   named_property<CellTag, Eigen::VectorXd>(mesh, "stress", Eigen::VectorXd::Ones(6));
   const std::string cube = "POINTS 8 float\n0 0 0 1 0 0 1 1 0 0 1 0 0 0 1 1 0 1 1 1 1 0 1 1\n";
+  VtuFile raw({.format = "raw", .order = std::endian::big, .header_bytes = 8});
+  VtuFile compressed({.format = "binary", .block_size = 40});
+  for (VtuFile* file : {&raw, &compressed}) {
+    add_cube_piece(*file);
+    add_cube_piece(*file);
+  }
   std::vector<std::string> files{
       write_hex_mesh_text(mesh),
       write_hex_mesh_text(mesh, {.binary = true}),
@@ -26,6 +33,9 @@ inline std::vector<std::string> intact_files() {
           "CONNECTIVITY vtktypeint64\n0 1 2 3 4 5 6 7 0 1\nCELL_TYPES 2\n12\n3\n"
           "CELL_DATA 2\nCOLOR_SCALARS rgb 3\n1 0 0 0 1 0\nLOOKUP_TABLE t 1\n1 1 1 1\n"
           "FIELD f 2\nid 1 2 long\n4 5\nnames 1 2 string\na\nb\n",
+      write_hex_mesh_text(mesh, {.format = "vtu"}),
+      raw.text(),
+      compressed.text(),
       write_hex_mesh_text(mesh, {.format = "gmsh"}),
       write_hex_mesh_text(mesh, {.format = "gmsh", .binary = true})};
   for (const char* version : kGmshVersions) {
@@ -58,6 +68,12 @@ inline std::string mutate(std::string text, const std::vector<std::string>& othe
                                                "bit",
                                                "$Nodes",
                                                "$EndElements",
+                                               "Bit",
+                                               "UInt64",
+                                               "binary",
+                                               "<",
+                                               "</DataArray>",
+                                               "<Piece NumberOfPoints=\"9\"",
                                                "\n",
                                                std::string(1, '\0'),
                                                " "};

@@ -57,16 +57,26 @@ TEST(RoundTrip, PointsAndCellsOfEveryFormat) {
   }
 }
 
-TEST(RoundTrip, DataOfVtk) {
+// The formats that hold every kind of data, as text and binary.
+std::vector<WriteOptions> formats_with_data() {
+  std::vector<WriteOptions> result;
+  for (const char* format : {"vtk", "vtu"}) {
+    for (bool binary : {false, true}) result.push_back({.format = format, .binary = binary});
+  }
+  return result;
+}
+
+TEST(RoundTrip, DataOfVtkAndVtu) {
   HexMesh mesh = with_awkward_values();
   add_every_kind_of_data(mesh);
-  for (bool binary : {false, true}) {
+  for (const WriteOptions& options : formats_with_data()) {
+    SCOPED_TRACE(options.format + (options.binary ? " binary" : " text"));
     WriteReport report;
-    const std::string text = write_hex_mesh_text(mesh, {.binary = binary}, &report);
+    const std::string text = write_hex_mesh_text(mesh, options, &report);
     EXPECT_THAT(report.notes, testing::IsEmpty());
-    const HexMesh read = read_hex_mesh_text(text, "x.vtk");
+    const HexMesh read = read_hex_mesh_text(text, "no-extension");
     expect_same_mesh(mesh, read);
-    EXPECT_EQ(text, write_hex_mesh_text(read, {.binary = binary}));
+    EXPECT_EQ(text, write_hex_mesh_text(read, options));
   }
 }
 
@@ -89,8 +99,8 @@ TEST(RoundTrip, DataOfOpenVolumeMesh) {
 TEST(RoundTrip, NotANumberInDataSurvives) {
   HexMesh mesh = unit_cube();
   named_property<VertexTag, double>(mesh, "w", std::nan(""));
-  for (bool binary : {false, true}) {
-    const HexMesh read = read_hex_mesh_text(write_hex_mesh_text(mesh, {.binary = binary}), "x.vtk");
+  for (const WriteOptions& options : formats_with_data()) {
+    const HexMesh read = read_hex_mesh_text(write_hex_mesh_text(mesh, options), "no-extension");
     EXPECT_TRUE(std::isnan((named_property<VertexTag, double>(read, "w")[VertexHandle(0)])));
   }
 }

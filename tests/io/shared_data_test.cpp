@@ -47,6 +47,8 @@ TEST(SharedData, EveryMeshComesBackBitForBit) {
       const std::string text = write_hex_mesh_text(mesh);
       const std::string binary = write_hex_mesh_text(mesh, {.binary = true});
       EXPECT_EQ(text, write_hex_mesh_text(read_hex_mesh_text(binary, "binary")));
+      const std::string xml = write_hex_mesh_text(mesh, {.format = "vtu"});
+      EXPECT_EQ(text, write_hex_mesh_text(read_hex_mesh_text(xml, "xml")));
       expect_same_numbers(read_file(entry.path()), mesh);
       ++n;
     }

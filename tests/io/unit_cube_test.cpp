@@ -16,6 +16,17 @@ const std::vector<CubeFile> kCubes{
      "# vtk DataFile Version 3.0\ncube\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 8 double\n"
      "0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n"
      "CELLS 1 9\n8 0 1 2 3 4 5 6 7\nCELL_TYPES 1\n12\n"},
+    {"vtu",
+     "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
+     "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<UnstructuredGrid>\n"
+     "<Piece NumberOfPoints=\"8\" NumberOfCells=\"1\">\n<Points>\n"
+     "<DataArray type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\" format=\"ascii\">\n"
+     "0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n</DataArray>\n</Points>\n<Cells>\n"
+     "<DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">\n"
+     "0 1 2 3 4 5 6 7\n</DataArray>\n"
+     "<DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">\n8\n</DataArray>\n"
+     "<DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">\n12\n</DataArray>\n"
+     "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n"},
     {"medit",
      "MeshVersionFormatted 2\nDimension 3\nVertices\n8\n"
      "0 0 0 0\n1 0 0 0\n1 1 0 0\n0 1 0 0\n0 0 1 0\n1 0 1 0\n1 1 1 0\n0 1 1 0\n"
