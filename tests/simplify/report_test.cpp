@@ -49,7 +49,7 @@ TEST(Report, RateAndJson) {
   EXPECT_EQ(j["sheets"]["accepted"], 7);
   EXPECT_EQ(j["sheets"]["refused"]["hausdorff"], 3);
   EXPECT_THAT(r.brief(), testing::AllOf(testing::HasSubstr("200"), testing::HasSubstr("0.7500"),
-                                        testing::HasSubstr("no candidate is left")));
+                                        testing::HasSubstr("asked for is reached")));
 }
 
 TEST(Report, CountsOfTrialsReadBack) {
