@@ -157,6 +157,21 @@ std::vector<double> scaled_jacobians(const HexMesh& mesh, std::span<const CellHa
   return measure_cells<ScaledJacobians>(mesh, cells);
 }
 
+Quality quality_of(std::span<const double> scaled_jacobians) {
+  if (scaled_jacobians.empty()) return {};
+  const auto n = static_cast<double>(scaled_jacobians.size());
+  Quality q{1, 0};
+  for (const double sj : scaled_jacobians) {
+    q.least = std::min(q.least, sj);
+    q.mean += sj / n;
+  }
+  return q;
+}
+
+Quality measure_quality(const HexMesh& mesh, std::span<const CellHandle> cells) {
+  return quality_of(scaled_jacobians(mesh, cells));
+}
+
 std::vector<double> shape_metrics(const HexMesh& mesh, std::span<const CellHandle> cells) {
   return measure_cells<ShapeMetrics>(mesh, cells);
 }

@@ -64,6 +64,13 @@ std::vector<double> scaled_jacobians(const Eigen::Matrix3Xd& points,
 /// The same of cells of a mesh: scaled_jacobian() (quality.h) of many at once, several times as fast.
 std::vector<double> scaled_jacobians(const HexMesh& mesh, std::span<const CellHandle> cells);
 
+/// Least and mean scaled Jacobian of some cells; of none 1.
+struct Quality {
+  double least = 1, mean = 1;
+};
+Quality quality_of(std::span<const double> scaled_jacobians);
+Quality measure_quality(const HexMesh& mesh, std::span<const CellHandle> cells);
+
 /// shape_metric() (quality.h) of many cells at once, several times as fast.
 std::vector<double> shape_metrics(const HexMesh& mesh, std::span<const CellHandle> cells);
 

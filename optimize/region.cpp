@@ -50,27 +50,6 @@ std::vector<int> number_vertices(const HexMesh& mesh, const std::vector<int>& lo
 
 }  // namespace
 
-std::vector<CellHandle> grow_cells(const HexMesh& mesh, std::span<const CellHandle> cells,
-                                   int rings) {
-  std::vector<CellHandle> grown;
-  std::vector<char> inside(mesh.cell_slots(), 0);
-  const auto take = [&](CellHandle c) {
-    if (!inside[c.idx]) grown.push_back(c);
-    inside[c.idx] = 1;
-  };
-  for (CellHandle c : cells) take(c);
-  std::size_t first = 0;
-  for (int ring = 0; ring < rings; ++ring) {
-    const std::size_t end = grown.size();
-    for (; first < end; ++first) {
-      for (VertexHandle v : mesh.vertices(grown[first])) {
-        for (CellHandle c : mesh.cells(v)) take(c);
-      }
-    }
-  }
-  return grown;
-}
-
 Region make_region(const HexMesh& mesh, std::span<const CellHandle> cells) {
   Region region;
   region.cells.assign(cells.begin(), cells.end());

@@ -28,10 +28,6 @@ struct Region {
       neighbor_side;  ///< 6 a hexahedron: 6 · neighbor + its side, -1 outside the region
 };
 
-/// The cells themselves, then those that share a vertex with them, and so on `rings` times.
-std::vector<CellHandle> grow_cells(const HexMesh& mesh, std::span<const CellHandle> cells,
-                                   int rings);
-
 /// \throws InputError for a cell that is not live or occurs twice
 Region make_region(const HexMesh& mesh, std::span<const CellHandle> cells);
 

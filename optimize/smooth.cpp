@@ -20,20 +20,6 @@
 namespace hexweft {
 namespace {
 
-struct Measure {
-  double least, mean;
-};
-
-Measure measure(const std::vector<double>& sj) {
-  const auto n = static_cast<double>(sj.size());
-  Measure m{1, 0};
-  for (const double x : sj) {
-    m.least = std::min(m.least, x);
-    m.mean += x / n;
-  }
-  return m;
-}
-
 // What lies between the samples is looked at before a pass is kept.
 SurfaceDistanceOptions samples_for(double limit) {
   constexpr double kNegligible = 0.5;
@@ -85,7 +71,7 @@ class Smoother {
   bool attempt(const std::vector<CellHandle>& cells, const ParametrizationOptions& options,
                const Aim& aim);
   bool keep_gain(const Region& before, const Aim& aim);
-  std::optional<double> mean_if_gained(const Measure& before, const Measure& now,
+  std::optional<double> mean_if_gained(const Quality& before, const Quality& now,
                                        std::size_t n_cells, const Aim& aim) const;
   void relax_for_least();
   void relax_for_mean();
@@ -106,7 +92,7 @@ class Smoother {
 
 /// \return the mean over the mesh, if the least or the mean scaled Jacobian of the cells gains enough,
 /// the least does not fall, and the mean over the mesh stays above what it was at the start
-std::optional<double> Smoother::mean_if_gained(const Measure& before, const Measure& now,
+std::optional<double> Smoother::mean_if_gained(const Quality& before, const Quality& now,
                                                std::size_t n_cells, const Aim& aim) const {
   const double mesh_mean = mean_ + (now.mean - before.mean) * static_cast<double>(n_cells) /
                                        static_cast<double>(cells_.size());
@@ -122,10 +108,10 @@ std::optional<double> Smoother::mean_if_gained(const Measure& before, const Meas
 bool Smoother::keep_gain(const Region& before, const Aim& aim) {
   constexpr double kMargin = 0.95;  // hausdorff_distance() looks closer still at large triangles
   const MoveLimits limits = {aim.floor, aim.room * limit_, kMargin * limit_};
-  const Measure old = measure(scaled_jacobians(before.points, before.hexes));
+  const Quality old = quality_of(scaled_jacobians(before.points, before.hexes));
   std::optional<double> mesh_mean;
   const auto gains = [&](const std::vector<double>& sj) {
-    mesh_mean = mean_if_gained(old, measure(sj), before.cells.size(), aim);
+    mesh_mean = mean_if_gained(old, quality_of(sj), before.cells.size(), aim);
     return mesh_mean.has_value();
   };
   if (!keep_what_fits(mesh_, before, distance_, limits, gains)) return false;
@@ -154,7 +140,7 @@ void Smoother::relax_for_least() {
   constexpr int kTries = 3;
   int failed = 0;
   for (int round = 0; round < options_.global_rounds && failed < kTries && !stopped(); ++round) {
-    const double least = measure(scaled_jacobians(mesh_, cells_)).least;
+    const double least = measure_quality(mesh_, cells_).least;
     ParametrizationOptions o = options_.parametrization;
     if (failed < 2) o = options_for_least(o, least);
     if (failed == 1) {
@@ -173,7 +159,7 @@ void Smoother::relax_for_least() {
 void Smoother::relax_for_mean() {
   for (int round = 0; round < options_.mean_rounds && mean_gains_.promise_more() && !stopped();
        ++round) {
-    const double least = measure(scaled_jacobians(mesh_, cells_)).least, before = mean_;
+    const double least = measure_quality(mesh_, cells_).least, before = mean_;
     const ParametrizationOptions o = options_for_mean(options_.parametrization, least);
     const bool gains = attempt(cells_, o, {least, kLeastGain, kMeanGain});
     mean_gains_.add(mean_ - before);
@@ -197,7 +183,7 @@ bool Smoother::relax_round(CellHandle worst, double least_gain) {
   const CellHandle seed[1] = {worst};
   for (const Rung& rung : ladder) {
     moved_ = grow_cells(mesh_, seed, rung.rings);
-    const double floor = measure(scaled_jacobians(mesh_, moved_)).least + least_gain;
+    const double floor = measure_quality(mesh_, moved_).least + least_gain;
     ParametrizationOptions o = p;
     o.surface.weight = rung.surface_weight;
     o.least_on_projection = rung.least_on_projection;
@@ -239,13 +225,13 @@ void Smoother::relax_worst_cells() {
 }
 
 SmoothingReport Smoother::run() {
-  const Measure before = measure(scaled_jacobians(mesh_, cells_));
+  const Quality before = measure_quality(mesh_, cells_);
   report_.initial_min_scaled_jacobian = before.least;
   report_.initial_mean_scaled_jacobian = mean_ = before.mean;
   relax_for_least();
   relax_worst_cells();
   relax_for_mean();
-  const Measure now = measure(scaled_jacobians(mesh_, cells_));
+  const Quality now = measure_quality(mesh_, cells_);
   report_.min_scaled_jacobian = now.least;
   report_.mean_scaled_jacobian = now.mean;
   return report_;
@@ -321,7 +307,7 @@ SmoothingReport smooth(HexMesh& mesh, const ReferenceSurface& reference,
   if (mesh.n_cells() == 0) return {};
   const auto measured = [&] { return hausdorff_distance(mesh, reference).ratio(); };
   const double before = options.initial_hausdorff_rel ? *options.initial_hausdorff_rel : measured();
-  const Measure start = measure(scaled_jacobians(mesh, all_cells(mesh)));
+  const Quality start = measure_quality(mesh, all_cells(mesh));
   SmoothingReport report;
   report.initial_min_scaled_jacobian = report.min_scaled_jacobian = start.least;
   report.initial_mean_scaled_jacobian = report.mean_scaled_jacobian = start.mean;

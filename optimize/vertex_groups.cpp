@@ -1,9 +1,9 @@
 #include "optimize/vertex_groups.h"
 
 #include <algorithm>
-#include <numeric>
 #include <string>
 
+#include "ovm/detail/disjoint_sets.h"
 #include "ovm/errors.h"
 
 namespace hexweft {
@@ -12,20 +12,16 @@ namespace {
 /// The least member of every vertex's group.
 std::vector<int> group_leaders(const RelaxationProblem& problem) {
   const int n = static_cast<int>(problem.points.cols());
-  std::vector<int> leader(n);
-  std::iota(leader.begin(), leader.end(), 0);
-  const auto find = [&](int v) {
-    if (v < 0 || v >= n) throw InputError("vertex " + std::to_string(v) + " of a group is unknown");
-    while (leader[v] != v) v = leader[v] = leader[leader[v]];
-    return v;
-  };
+  detail::DisjointSets sets(n);
   for (const std::vector<int>& group : problem.groups) {
-    for (std::size_t i = 1; i < group.size(); ++i) {
-      const int a = find(group[0]), b = find(group[i]);
-      leader[std::max(a, b)] = std::min(a, b);
+    for (int v : group) {
+      if (v < 0 || v >= n)
+        throw InputError("vertex " + std::to_string(v) + " of a group is unknown");
+      sets.join(group[0], v);
     }
   }
-  for (int v = 0; v < n; ++v) leader[v] = find(v);
+  std::vector<int> leader;
+  for (int v = 0; v < n; ++v) leader.push_back(sets.find(v));
   return leader;
 }
 

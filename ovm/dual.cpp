@@ -2,42 +2,23 @@
 
 #include <algorithm>
 
+#include "ovm/detail/disjoint_sets.h"
+
 namespace hexweft {
 namespace {
 
-// Disjoint sets of elements; the root of a set is its lowest element.
-class DisjointSets {
- public:
-  explicit DisjointSets(int n) : parent_(n) {
-    for (int i = 0; i < n; ++i) parent_[i] = i;
+/// Numbers the sets of the elements for which `live` holds; -1 for the others.
+template <class Live>
+std::vector<int> number(detail::DisjointSets& sets, Live&& live, int& n_sets) {
+  std::vector<int> result(sets.size(), -1);
+  n_sets = 0;
+  for (int i = 0; i < sets.size(); ++i) {
+    if (!live(i)) continue;
+    const int root = sets.find(i);  // the lowest of its set, which has its number
+    result[i] = root == i ? n_sets++ : result[root];
   }
-  int find(int i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  int join(int a, int b) {
-    a = find(a), b = find(b);
-    if (a < b) return parent_[b] = a;
-    return parent_[a] = b;
-  }
-  /// Numbers the sets of the elements for which `live` holds, in place.
-  template <class Live>
-  std::vector<int> number(Live&& live, int& n_sets) && {
-    n_sets = 0;
-    for (int i = 0; i < static_cast<int>(parent_.size()); ++i) {
-      // Roots come before their members, so a parent already holds the number of its set.
-      if (!live(i)) {
-        parent_[i] = -1;
-      } else {
-        parent_[i] = parent_[i] == i ? n_sets++ : parent_[parent_[i]];
-      }
-    }
-    return std::move(parent_);
-  }
-
- private:
-  std::vector<int> parent_;
-};
+  return result;
+}
 
 // The face reached from side hf straight through its cell.
 HalfFaceHandle across(HalfFaceHandle hf) { return HalfFaceHandle(hf.idx ^ 1); }
@@ -111,31 +92,29 @@ DualChord dual_chord(const HexMesh& mesh, FaceHandle f) {
 }
 
 DualSheets extract_dual_sheets(const HexMesh& mesh) {
-  DisjointSets sets(mesh.edge_slots());
+  detail::DisjointSets sets(mesh.edge_slots());
   for (CellHandle c : mesh.cells()) {
     const auto& e = mesh.edges(c);
     for (int k = 0; k < kHexEdges; k += 4) {
-      int root = sets.join(e[k].idx, e[k + 1].idx);
-      root = sets.join(root, e[k + 2].idx);
-      sets.join(root, e[k + 3].idx);
+      for (int i = 1; i < 4; ++i) sets.join(e[k].idx, e[k + i].idx);
     }
   }
   DualSheets result;
-  result.of_edge =
-      std::move(sets).number([&](int i) { return mesh.is_live(EdgeHandle(i)); }, result.n_sheets);
+  const auto live = [&](int i) { return mesh.is_live(EdgeHandle(i)); };
+  result.of_edge = number(sets, live, result.n_sheets);
   return result;
 }
 
 DualChords extract_dual_chords(const HexMesh& mesh) {
-  DisjointSets sets(mesh.face_slots());
+  detail::DisjointSets sets(mesh.face_slots());
   for (CellHandle c : mesh.cells()) {
     for (int side = 0; side < kSides; side += 2) {
       sets.join(mesh.face(mesh.halfface(c, side)).idx, mesh.face(mesh.halfface(c, side + 1)).idx);
     }
   }
   DualChords result;
-  result.of_face =
-      std::move(sets).number([&](int i) { return mesh.is_live(FaceHandle(i)); }, result.n_chords);
+  const auto live = [&](int i) { return mesh.is_live(FaceHandle(i)); };
+  result.of_face = number(sets, live, result.n_chords);
   return result;
 }
 

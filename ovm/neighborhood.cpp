@@ -24,6 +24,62 @@ std::vector<CellHandle> all_cells(const HexMesh& mesh) {
   return cells;
 }
 
+std::vector<CellHandle> grow_cells(const HexMesh& mesh, std::span<const CellHandle> cells,
+                                   int rings) {
+  std::vector<CellHandle> grown;
+  std::vector<char> inside(mesh.cell_slots(), 0);
+  const auto take = [&](CellHandle c) {
+    if (!inside[c.idx]) grown.push_back(c);
+    inside[c.idx] = 1;
+  };
+  for (CellHandle c : cells) take(c);
+  std::size_t first = 0;
+  for (int ring = 0; ring < rings; ++ring) {
+    const std::size_t end = grown.size();
+    for (; first < end; ++first) {
+      for (VertexHandle v : mesh.vertices(grown[first])) {
+        for (CellHandle c : mesh.cells(v)) take(c);
+      }
+    }
+  }
+  return grown;
+}
+
+std::vector<CellHandle> cells_around(const HexMesh& mesh, std::span<const VertexHandle> vertices,
+                                     int rings) {
+  std::vector<char> seen_vertex(mesh.vertex_slots(), 0), seen_cell(mesh.cell_slots(), 0);
+  std::vector<VertexHandle> front(vertices.begin(), vertices.end()), next;
+  std::vector<CellHandle> result;
+  for (VertexHandle v : front) seen_vertex[v.idx] = 1;
+  for (int ring = 0; ring < rings && !front.empty(); ++ring) {
+    next.clear();
+    for (VertexHandle v : front) {
+      for (CellHandle c : mesh.cells(v)) {
+        if (seen_cell[c.idx]) continue;
+        seen_cell[c.idx] = 1;
+        result.push_back(c);
+        for (VertexHandle w : mesh.vertices(c)) {
+          if (seen_vertex[w.idx]) continue;
+          seen_vertex[w.idx] = 1;
+          next.push_back(w);
+        }
+      }
+    }
+    front.swap(next);
+  }
+  // In order: by looking through all cells of the mesh, unless it has so many that sorting is faster.
+  constexpr int kAllPerOne = 32;
+  if (std::ssize(seen_cell) > kAllPerOne * std::ssize(result)) {
+    std::sort(result.begin(), result.end());
+    return result;
+  }
+  result.clear();
+  for (int i = 0; i < mesh.cell_slots(); ++i) {
+    if (seen_cell[i]) result.push_back(CellHandle(i));
+  }
+  return result;
+}
+
 HalfFaceHandle find_halfface_in_cell(const HexMesh& mesh, CellHandle c, const QuadVertices& quad) {
   for (HalfFaceHandle hf : mesh.halffaces(c)) {
     const auto v = mesh.vertices(hf);

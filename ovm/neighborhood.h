@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "ovm/hex_mesh.h"
@@ -25,6 +26,14 @@ std::array<HalfEdgeHandle, 4> halfedges(const HexMesh& mesh, HalfFaceHandle hf);
 
 /// The live cells, ascending.
 std::vector<CellHandle> all_cells(const HexMesh& mesh);
+
+/// The cells themselves, then those that share a vertex with them, and so on `rings` times.
+std::vector<CellHandle> grow_cells(const HexMesh& mesh, std::span<const CellHandle> cells,
+                                   int rings);
+
+/// The cells within `rings` of the vertices; ring 1 touches them. Ascending.
+std::vector<CellHandle> cells_around(const HexMesh& mesh, std::span<const VertexHandle> vertices,
+                                     int rings);
 
 /// The side of c with these vertices in any order, invalid if there is none.
 HalfFaceHandle find_halfface_in_cell(const HexMesh& mesh, CellHandle c, const QuadVertices& quad);

@@ -84,12 +84,7 @@ class LayerRemoval {
 
   /// Whether layer i of a component along this axis, counted in the component's direction, goes.
   bool removes(const Crossing& x, int i) const {
-    const Component& c = bc_.components[x.component];
-    const int id = c.edges[4 * x.axis];
-    const auto at = std::lower_bound(sheet_.edges.begin(), sheet_.edges.end(), id);
-    const bool along = bc_.edges[id].ends[0] == c.corners[kEdgeCorners[4 * x.axis][0]];
-    const bool same = along != (sheet_.against[at - sheet_.edges.begin()] != 0);
-    return removed_[same ? i : sheet_.width - 1 - i];
+    return removed_[runs_against(bc_, sheet_, x) ? sheet_.width - 1 - i : i];
   }
 
   /// Grid coordinates along the axis of which none is closed up with an earlier one.

@@ -24,8 +24,9 @@ std::vector<PeeledComponent> sides_on_boundary(const BaseComplex& bc, const Shee
 }
 
 // Sides that meet at an edge which is no feature are of one peel.
-DisjointSets join_across_edges(const BaseComplex& bc, const std::vector<PeeledComponent>& sides,
-                               const std::vector<char>& on_feature) {
+detail::DisjointSets join_across_edges(const BaseComplex& bc,
+                                       const std::vector<PeeledComponent>& sides,
+                                       const std::vector<char>& on_feature) {
   const int n = static_cast<int>(sides.size());
   std::vector<std::pair<int, int>> at_edges;  // base edge, side
   for (int i = 0; i < n; ++i) {
@@ -35,7 +36,7 @@ DisjointSets join_across_edges(const BaseComplex& bc, const std::vector<PeeledCo
     }
   }
   std::sort(at_edges.begin(), at_edges.end());
-  DisjointSets sets(n);
+  detail::DisjointSets sets(n);
   for (std::size_t k = 1; k < at_edges.size(); ++k) {
     if (at_edges[k].first == at_edges[k - 1].first)
       sets.join(at_edges[k].second, at_edges[k - 1].second);
@@ -50,7 +51,7 @@ std::vector<Peel> extract_peels(const BaseComplex& bc, const std::vector<Sheet>&
   std::vector<Peel> peels;
   for (const Sheet& sheet : sheets) {
     const std::vector<PeeledComponent> sides = sides_on_boundary(bc, sheet);
-    DisjointSets sets = join_across_edges(bc, sides, on_feature);
+    detail::DisjointSets sets = join_across_edges(bc, sides, on_feature);
     std::map<int, Peel> by_set;
     for (int i = 0; i < static_cast<int>(sides.size()); ++i) {
       Peel& peel = by_set[sets.find(i)];

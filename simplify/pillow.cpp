@@ -9,19 +9,6 @@
 #include "simplify/component_cut.h"
 
 namespace hexweft {
-namespace {
-
-// Whether a component's axis runs against the direction of the sheet.
-bool runs_against(const BaseComplex& bc, const Sheet& sheet, const Crossing& x) {
-  const Component& c = bc.components[x.component];
-  const int edge = 4 * x.axis;
-  const auto i = std::lower_bound(sheet.edges.begin(), sheet.edges.end(), c.edges[edge]);
-  const bool edge_against = sheet.against[i - sheet.edges.begin()] != 0;
-  return edge_against != (bc.edges[*i].ends[0] != c.corners[kEdgeCorners[edge][0]]);
-}
-
-}  // namespace
-
 std::vector<int> components_of(const Sheet& sheet) {
   std::vector<int> crossed;
   for (const Crossing& x : sheet.crossings) crossed.push_back(x.component);

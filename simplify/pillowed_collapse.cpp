@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "ovm/neighborhood.h"
 #include "simplify/region_relaxation.h"
 
 namespace hexweft {

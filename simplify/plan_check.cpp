@@ -6,8 +6,8 @@
 
 #include <Eigen/Geometry>
 
+#include "ovm/detail/disjoint_sets.h"
 #include "ovm/detail/sort_unique.h"
-#include "simplify/disjoint_sets.h"
 
 namespace hexweft {
 namespace {
@@ -51,7 +51,7 @@ bool glues_boundary(const HexMesh& mesh, const SingularityGraph& graph, const Me
   std::vector<int> position(mesh.vertex_slots(), -1);
   for (std::size_t i = 0; i < plan.members.size(); ++i)
     position[plan.members[i].idx] = static_cast<int>(i);
-  DisjointSets linked(static_cast<int>(plan.members.size()));
+  detail::DisjointSets linked(static_cast<int>(plan.members.size()));
   for (CellHandle c : plan.removed) {
     for (HalfFaceHandle hf : mesh.halffaces(c)) {
       if (!mesh.is_boundary(hf)) continue;

@@ -6,10 +6,10 @@
 #include <fmt/format.h>
 
 #include "optimize/hex_energy.h"
+#include "ovm/detail/disjoint_sets.h"
 #include "ovm/errors.h"
 #include "ovm/neighborhood.h"
 #include "ovm/quality.h"
-#include "simplify/disjoint_sets.h"
 #include "simplify/rank.h"
 
 namespace hexweft {
@@ -102,7 +102,7 @@ class SideGroups {
   }
 
   const BaseComplex& bc_;
-  DisjointSets sets_;
+  detail::DisjointSets sets_;
   std::vector<int> stamp_, surviving_, members_;
   std::vector<Group> groups_;
   int now_ = -1;

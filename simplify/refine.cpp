@@ -4,8 +4,10 @@
 #include <array>
 
 #include "ovm/edit/split_sheet.h"
+#include "ovm/neighborhood.h"
 #include "ovm/quality.h"
 #include "ovm/transaction.h"
+#include "simplify/surface_check.h"
 
 namespace hexweft {
 namespace {

@@ -7,7 +7,9 @@
 #include "ovm/detail/sort_unique.h"
 #include "ovm/dual.h"
 #include "ovm/edit/split_sheet.h"
+#include "ovm/neighborhood.h"
 #include "ovm/quality.h"
+#include "simplify/surface_check.h"
 
 namespace hexweft {
 namespace {

@@ -1,8 +1,9 @@
 #include "simplify/sheet.h"
 
+#include <algorithm>
 #include <array>
 
-#include "simplify/disjoint_sets.h"
+#include "ovm/detail/disjoint_sets.h"
 
 namespace hexweft {
 namespace {
@@ -35,7 +36,7 @@ class DirectedClasses {
     return 2 * c.edges[edge] + (bc_.edges[c.edges[edge]].ends[0] == from ? 0 : 1);
   }
   const BaseComplex& bc_;
-  DisjointSets sets_;
+  detail::DisjointSets sets_;
 };
 
 bool crosses_itself(const Sheet& s) {
@@ -69,6 +70,14 @@ std::string_view name(SheetKind kind) {
   static constexpr std::array<std::string_view, 5> names = {"open", "closed", "tangent",
                                                             "intersecting", "moebius"};
   return names[static_cast<std::size_t>(kind)];
+}
+
+bool runs_against(const BaseComplex& bc, const Sheet& sheet, const Crossing& x) {
+  const Component& c = bc.components[x.component];
+  const int edge = 4 * x.axis;
+  const auto i = std::lower_bound(sheet.edges.begin(), sheet.edges.end(), c.edges[edge]);
+  const bool edge_against = sheet.against[i - sheet.edges.begin()] != 0;
+  return edge_against != (bc.edges[*i].ends[0] != c.corners[kEdgeCorners[edge][0]]);
 }
 
 std::vector<Sheet> extract_sheets(const BaseComplex& bc) {

@@ -34,6 +34,9 @@ struct Sheet {
   SheetKind kind = SheetKind::open;
 };
 
+/// Whether a component's axis runs against the direction of the sheet that crosses it there.
+bool runs_against(const BaseComplex& bc, const Sheet& sheet, const Crossing& x);
+
 /// All sheets, each base edge in exactly one; ordered by their lowest base edge. Cost O(#B_E).
 std::vector<Sheet> extract_sheets(const BaseComplex& bc);
 

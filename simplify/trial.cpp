@@ -12,9 +12,6 @@
 namespace hexweft {
 namespace {
 
-// Of the limit: where a sample of the loop is farther, what lies between the samples is looked at.
-constexpr double kClose = 0.5;
-
 int euler_of_live(const HexMesh& mesh) {
   return mesh.n_vertices() - mesh.n_edges() + mesh.n_faces() - mesh.n_cells();
 }
@@ -157,103 +154,6 @@ bool ends_simpler(TrialContext& context, std::size_t n_before, TrialResult& resu
 }
 
 }  // namespace
-
-const std::vector<FeatureLabel>& TrialContext::feature_labels() {
-  if (!labels) labels = feature_of(reference, mesh, near_lines);
-  return *labels;
-}
-
-void commit(TrialContext& context, Transaction& change) {
-  context.distance.commit();
-  change.commit();
-}
-
-Quality measure_quality(const HexMesh& mesh, std::span<const CellHandle> cells) {
-  if (cells.empty()) return {};
-  Quality q{1, 0};
-  for (const double sj : scaled_jacobians(mesh, cells)) {
-    q.least = std::min(q.least, sj);
-    q.mean += sj / static_cast<double>(cells.size());
-  }
-  return q;
-}
-
-bool stays_on_surface(TrialContext& context, std::span<const CellHandle> touched) {
-  const StageTimer timer(context.clock, Stage::distance);
-  const double limit = context.distance_limit;
-  const double d = context.distance.after_change(context.mesh, touched, limit);
-  if (d <= kClose * limit) return true;
-  if (d <= limit) {
-    const StageTimer full(context.clock, Stage::full_distance);
-    if (context.distance.change_is_within(context.final_limit, kClose)) return true;
-  }
-  context.distance.rollback();
-  return false;
-}
-
-std::pair<HalfFaceHandle, double> farthest_side(const SurfaceDistance& distance) {
-  const std::vector<double> by_side = distance.distance_by_halfface();
-  const auto worst = std::max_element(by_side.begin(), by_side.end());
-  return {HalfFaceHandle(static_cast<int>(worst - by_side.begin())), *worst};
-}
-
-bool relieve_farthest(TrialContext& context, const SimplifyOptions& options) {
-  constexpr double kCloseToLimit = 0.7;
-  const double before = context.distance.distance();
-  if (before < kCloseToLimit * context.distance_limit) return false;
-  HexMesh& mesh = context.mesh;
-  const auto side = mesh.vertices(farthest_side(context.distance).first);
-  const std::vector<CellHandle> region = cells_around(mesh, side, options.rings);
-  const Quality old = measure_quality(mesh, region);
-  ParametrizationOptions p = options.parametrization;
-  p.min_scaled_jacobian = std::min(options.min_scaled_jacobian, old.least);
-  Transaction attempt(mesh);
-  if (!parametrize(mesh, region, context.reference, p).valid()) return false;
-  const bool nearer = context.distance.after_change(mesh, region, before) < before &&
-                      context.distance.distance() < before &&
-                      context.distance.change_is_within(context.final_limit, kClose);
-  if (!nearer) {
-    context.distance.rollback();
-    return false;
-  }
-  commit(context, attempt);
-  return true;
-}
-
-std::vector<CellHandle> cells_around(const HexMesh& mesh, std::span<const VertexHandle> vertices,
-                                     int rings) {
-  std::vector<char> seen_vertex(mesh.vertex_slots(), 0), seen_cell(mesh.cell_slots(), 0);
-  std::vector<VertexHandle> front(vertices.begin(), vertices.end()), next;
-  std::vector<CellHandle> result;
-  for (VertexHandle v : front) seen_vertex[v.idx] = 1;
-  for (int ring = 0; ring < rings && !front.empty(); ++ring) {
-    next.clear();
-    for (VertexHandle v : front) {
-      for (CellHandle c : mesh.cells(v)) {
-        if (seen_cell[c.idx]) continue;
-        seen_cell[c.idx] = 1;
-        result.push_back(c);
-        for (VertexHandle w : mesh.vertices(c)) {
-          if (seen_vertex[w.idx]) continue;
-          seen_vertex[w.idx] = 1;
-          next.push_back(w);
-        }
-      }
-    }
-    front.swap(next);
-  }
-  // In order: by looking through all cells of the mesh, unless it has so many that sorting is faster.
-  constexpr int kAllPerOne = 32;
-  if (std::ssize(seen_cell) > kAllPerOne * std::ssize(result)) {
-    std::sort(result.begin(), result.end());
-    return result;
-  }
-  result.clear();
-  for (int i = 0; i < mesh.cell_slots(); ++i) {
-    if (seen_cell[i]) result.push_back(CellHandle(i));
-  }
-  return result;
-}
 
 Refusal check_structure(const TrialContext& context, std::size_t n_before, BaseComplex& after) {
   const StageTimer timer(context.clock, Stage::structure);

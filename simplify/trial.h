@@ -7,43 +7,12 @@
 #include <utility>
 #include <vector>
 
-#include "optimize/feature_assignment.h"
-#include "optimize/reference_surface.h"
-#include "optimize/surface_distance.h"
-#include "ovm/topology_summary.h"
-#include "ovm/transaction.h"
+#include "optimize/hex_energy.h"
 #include "simplify/options.h"
 #include "simplify/plan_check.h"
-#include "simplify/profile.h"
+#include "simplify/trial_context.h"
 
 namespace hexweft {
-
-/// Of the distance limit: what is below that counts as none where a run can do without the difference.
-inline constexpr double kNegligible = 0.2;
-
-/// What the trials of a run share. The mesh and its distance always belong together.
-struct TrialContext {
-  HexMesh& mesh;
-  const ReferenceSurface& reference;
-  SurfaceDistance& distance;
-  TopologySummary shape;  ///< of the input: genus and parts that every state must have
-  double distance_limit;  ///< model units, at the sampling of `distance`
-  double final_limit;     ///< model units, at full sampling
-  /// Up to so many cells trials may split sheets, and up to what there was before the collapse.
-  int most_cells = 0;
-  StageClock* clock = nullptr;  ///< told of the stages of a trial, if any
-  /// Features of the mesh's vertices, once they have been asked for. Like the graph that
-  /// try_collapse_locally() is given they may be out of date where the mesh has changed since.
-  std::optional<std::vector<FeatureLabel>> labels = {};
-  NearLines near_lines = {};  ///< where the features were asked for
-  const std::vector<FeatureLabel>& feature_labels();
-};
-
-/// Least and mean scaled Jacobian of some cells; of none 1.
-struct Quality {
-  double least = 1, mean = 1;
-};
-Quality measure_quality(const HexMesh& mesh, std::span<const CellHandle> cells);
 
 /// What a merge leaves before anything round it has moved: it settles most of what becomes of it.
 struct Outlook {
@@ -108,25 +77,5 @@ TrialResult weigh_collapse(TrialContext& context, const BaseComplex& bc, const C
 /// \param n_before  components
 /// \param after     set to the base complex of the mesh as it is
 Refusal check_structure(const TrialContext& context, std::size_t n_before, BaseComplex& after);
-
-/// Makes an accepted change of the mesh and its distance final.
-void commit(TrialContext& context, Transaction& change);
-
-/// Brings the distance up to the mesh after a change of these cells, dead or alive, and checks it
-/// against the limits; where it is close, at full sampling of what changed. Over one, the distance is rolled back.
-bool stays_on_surface(TrialContext& context, std::span<const CellHandle> touched);
-
-/// The boundary side that is farthest from the surface or has the farthest sample of it nearest, and
-/// how far that is, model units.
-std::pair<HalfFaceHandle, double> farthest_side(const SurfaceDistance& distance);
-
-/// Relaxes round the place farthest from the surface if that is close to the limit: later trials there
-/// would fail for it, whatever they do. Kept only if it brings the distance down.
-/// \return whether it did
-bool relieve_farthest(TrialContext& context, const SimplifyOptions& options);
-
-/// The live cells within `rings` of the vertices; ring 1 touches them. Ascending.
-std::vector<CellHandle> cells_around(const HexMesh& mesh, std::span<const VertexHandle> vertices,
-                                     int rings);
 
 }  // namespace hexweft

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "ovm/detail/disjoint_sets.h"
 #include "ovm/detail/sort_unique.h"
 #include "simplify/collapse_plan.h"
-#include "simplify/disjoint_sets.h"
 
 namespace hexweft::detail {
 
@@ -53,7 +53,7 @@ class PlanBuilder {
 
   std::vector<int> local_;  // by vertex handle
   std::vector<VertexHandle> vertices_;
-  DisjointSets sets_;
+  detail::DisjointSets sets_;
   CollapsePlan plan_;
 };
 

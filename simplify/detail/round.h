@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "ovm/neighborhood.h"
 #include "ovm/transaction.h"
 #include "simplify/candidate_key.h"
 #include "simplify/trial.h"

@@ -7,6 +7,7 @@
 #include "simplify/detail/run.h"
 #include "simplify/feature_targets.h"
 #include "simplify/pillowed_collapse.h"
+#include "simplify/surface_check.h"
 
 namespace hexweft::detail {
 namespace {

@@ -18,6 +18,7 @@
 #include "optimize/surface_constraint.h"
 #include "optimize/target_shape.h"
 #include "ovm/generators.h"
+#include "ovm/neighborhood.h"
 
 namespace hexweft {
 namespace {

@@ -12,6 +12,7 @@
 #include "optimize/relaxation.h"
 #include "optimize/surface_distance.h"
 #include "ovm/generators.h"
+#include "ovm/neighborhood.h"
 #include "ovm/transaction.h"
 
 namespace hexweft {

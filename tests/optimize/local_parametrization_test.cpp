@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "optimize/hausdorff.h"
+#include "ovm/neighborhood.h"
 #include "ovm/transaction.h"
 #include "tests/optimize/test_meshes.h"
 

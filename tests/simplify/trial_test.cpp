@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "optimize/hausdorff.h"
+#include "ovm/neighborhood.h"
 #include "tests/mesh_families.h"
 #include "tests/ovm/mesh_dump.h"
 #include "tests/simplify/prediction.h"

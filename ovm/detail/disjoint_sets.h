@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace hexweft {
+namespace hexweft::detail {
 
 class DisjointSets {
  public:
@@ -41,4 +41,4 @@ class DisjointSets {
   std::vector<int> parent_;
 };
 
-}  // namespace hexweft
+}  // namespace hexweft::detail
