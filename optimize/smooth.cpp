@@ -177,9 +177,8 @@ bool Smoother::relax_round(CellHandle worst, double least_gain) {
     double surface_weight, least_on_projection;
   };
   const ParametrizationOptions& p = options_.parametrization;
-  // Weaker, the surface gives way farther than the hexahedra gain by.
-  constexpr double kGivingWay = 0.2, kLeastOnProjection = 0.5;
-  const double weak = kGivingWay * p.surface.weight;
+  constexpr double kLeastOnProjection = 0.5;
+  const double weak = weight_giving_way(p);
   const Rung ladder[] = {{2, p.surface.weight, p.least_on_projection},
                          {2, weak, kLeastOnProjection},
                          {4, weak, kLeastOnProjection}};
