@@ -178,7 +178,7 @@ bool Smoother::relax_round(CellHandle worst, double least_gain) {
   };
   const ParametrizationOptions& p = options_.parametrization;
   constexpr double kLeastOnProjection = 0.5;
-  const double weak = weight_giving_way(p);
+  const double weak = options_.giving_way * p.surface.weight;
   const Rung ladder[] = {{2, p.surface.weight, p.least_on_projection},
                          {2, weak, kLeastOnProjection},
                          {4, weak, kLeastOnProjection}};
@@ -300,6 +300,7 @@ void validate(const SmoothingOptions& o) {
   require(o.local_trials >= 0, "local_trials", o.local_trials, ">= 0");
   require(o.enough_scaled_jacobian >= 0 && o.enough_scaled_jacobian <= 1, "enough_scaled_jacobian",
           o.enough_scaled_jacobian, "[0, 1]");
+  require(o.giving_way > 0 && o.giving_way <= 1, "giving_way", o.giving_way, "(0, 1]");
   validate(o.parametrization);
 }
 

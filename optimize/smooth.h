@@ -19,6 +19,9 @@ struct SmoothingOptions {
   int local_trials = 200;  ///< ≥ 0, passes over the neighborhood of a worst cell
   double enough_scaled_jacobian =
       0.7;  ///< [0, 1], cells at least this good are not worked on one by one
+  /// (0, 1], the share of the surface's weight that is left where the surface gives way for the worst
+  /// cells: more keeps the mesh nearer to it, with less they get better
+  double giving_way = 0.03;
   ParametrizationOptions parametrization = {.surface = {.treatment = SurfaceTreatment::fit}};
   /// ≥ 0, what the distance at the start is known not to be over, as hausdorff_limit_rel; unset: it is
   /// measured, which takes a tenth of the time

@@ -39,10 +39,4 @@ ParametrizationOptions options_for_mean(ParametrizationOptions o, double floor) 
   return o;
 }
 
-/// As weak as the energy needs. The sharper one pulls harder at the worst hexahedra: with 0.03 their
-/// neighborhoods leave the surface a tenth farther and end no better.
-double weight_giving_way(const ParametrizationOptions& o) {
-  return (may_be_sharpened(o.energy) ? 0.2 : 0.03) * o.surface.weight;
-}
-
 }  // namespace hexweft

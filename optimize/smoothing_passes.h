@@ -14,7 +14,4 @@ ParametrizationOptions options_for_least(ParametrizationOptions options, double 
 /// For passes that raise the mean scaled Jacobian. \param floor  as above
 ParametrizationOptions options_for_mean(ParametrizationOptions options, double floor);
 
-/// Weight of the surface (SurfaceOptions) where it gives way so that the least scaled Jacobian can rise.
-double weight_giving_way(const ParametrizationOptions& options);
-
 }  // namespace hexweft

@@ -146,6 +146,21 @@ TEST(Smooth, WorksWithEveryEnergyAndNeverInverts) {
   }
 }
 
+TEST(Smooth, ASurfaceThatGivesWayLessIsNearer) {
+  double nearer = 0, farther = 0;
+  for (Shape shape : kShapes) {
+    const HexMesh start = make_octree_like(shape, 8);
+    const auto reference = make_reference_surface(start);
+    SmoothingOptions of_worst = {.cycles = 1, .global_rounds = 0, .mean_rounds = 0};
+    HexMesh a = start, b = start;
+    of_worst.giving_way = 1;
+    nearer += smooth(a, reference, of_worst).hausdorff_rel;
+    of_worst.giving_way = 0.03;
+    farther += smooth(b, reference, of_worst).hausdorff_rel;
+  }
+  EXPECT_LT(nearer, farther);
+}
+
 TEST(Smooth, StopsWhenAskedTo) {
   HexMesh mesh = make_octree_like(Shape::blob, 8, 1);
   const auto before = points_of(mesh);
@@ -170,6 +185,8 @@ TEST(Smooth, TakesAnEmptyMeshAndRefusesBadOptions) {
   EXPECT_EQ(smooth(mesh, reference).trials, 0);
   EXPECT_THROW(smooth(box, reference, {.hausdorff_limit_rel = 0}), InputError);
   EXPECT_THROW(smooth(box, reference, {.cycles = 0}), InputError);
+  EXPECT_THROW(smooth(box, reference, {.giving_way = 0}), InputError);
+  EXPECT_THROW(smooth(box, reference, {.giving_way = 1.1}), InputError);
   EXPECT_THROW(smooth(box, reference, {.initial_hausdorff_rel = -1}), InputError);
 }
 
