@@ -27,7 +27,8 @@ SignalWatch::SignalWatch(std::stop_source source)
       }) {
   std::signal(SIGINT, remember_signal);
   std::signal(SIGTERM, remember_signal);
-  std::signal(SIGHUP, remember_signal);
+  // nohup has it ignored, and means it.
+  if (std::signal(SIGHUP, remember_signal) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
 }
 
 }  // namespace hexweft::cli
