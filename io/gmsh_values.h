@@ -95,10 +95,7 @@ class GmshValues {
     return value;
   }
 
-  /// How many rows of so many numbers to make room for: a lying count must not cost memory.
-  std::size_t room_for(std::int64_t n, int numbers) const {
-    return std::min<std::size_t>(n, in_.remaining() / (2 * numbers) + 1);
-  }
+  std::size_t room_for(std::int64_t n, int numbers) const { return in_.room_for(n, numbers); }
   /// Where the next number is, for fail().
   std::size_t where() { return binary_ ? section_.header : (in_.at_end(), in_.offset()); }
   std::size_t header() const { return section_.header; }

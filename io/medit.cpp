@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 
 #include "io/number_text.h"
@@ -78,9 +77,6 @@ class MeditReader {
     }
     return n;
   }
-  std::size_t room_for(std::int64_t n, int numbers) const {  // a lying count must not cost memory
-    return std::min<std::size_t>(n, in_.remaining() / (2 * numbers) + 1);
-  }
   std::int64_t read_reference(const char* of, std::int64_t i) {
     std::int64_t reference;
     if (!in_.read(reference))
@@ -133,17 +129,15 @@ void MeditReader::read_vertices() {
   if (have_vertices_) in_.fail(section_, "Vertices appears twice");
   have_vertices_ = true;
   const std::int64_t n = read_count("Vertices", std::numeric_limits<int>::max() / 2);
-  data_.points.reserve(room_for(n, 4));
-  point_references_.reserve(room_for(n, 4));
+  data_.points.reserve(in_.room_for(n, 4));
+  point_references_.reserve(in_.room_for(n, 4));
   for (std::int64_t i = 0; i < n; ++i) {
     Eigen::Vector3d p;
     for (double& x : p) {
-      const std::size_t before = in_.offset();
-      if (!in_.read(x) || !std::isfinite(x)) {
-        in_.seek(before);
-        in_.fail_expected("a finite coordinate of vertex " + std::to_string(i + 1) + " of " +
-                          std::to_string(n));
-      }
+      x = in_.read_finite([&] {
+        return "a finite coordinate of vertex " + std::to_string(i + 1) + " of " +
+               std::to_string(n);
+      });
     }
     data_.points.push_back(p);
     point_references_.push_back(read_reference("vertex", i));
@@ -156,8 +150,8 @@ void MeditReader::read_hexahedra() {
   have_hexahedra_ = true;
   const std::int64_t n = read_count("Hexahedra", std::numeric_limits<int>::max() / 12);
   first_hexahedron_ = in_.offset();
-  data_.cells.reserve(room_for(n, 9));
-  cell_references_.reserve(room_for(n, 9));
+  data_.cells.reserve(in_.room_for(n, 9));
+  cell_references_.reserve(in_.room_for(n, 9));
   for (std::int64_t i = 0; i < n; ++i) {
     std::array<int, 8> cell;
     for (int& corner : cell) {

@@ -54,10 +54,6 @@ class OvmReader {
     if (!in_.read(value)) in_.fail_expected(what);
   }
   std::size_t start_of_row() { return (in_.peek(), in_.offset()); }
-  std::size_t room_for(std::int64_t n, int numbers) const {  // a lying count must not cost memory
-    return std::min<std::size_t>(n, in_.remaining() / (2 * numbers) + 1);
-  }
-
   TextScanner in_;
   MeshData data_;
   OvmTopology topology_;
@@ -76,20 +72,14 @@ std::int64_t OvmReader::read_count(const char* section) {
   constexpr std::int64_t kMost = std::numeric_limits<int>::max() / 12;
   if (lower_case(in_.peek()) != lower_case(section)) in_.fail_expected(section);
   in_.rest_of_line();
-  const std::size_t before = start_of_row();
-  std::int64_t n;
-  if (!in_.read(n) || n < 0 || n > kMost) {
-    in_.seek(before);
-    in_.fail_expected("a number of " + lower_case(section) + " in [0, " + std::to_string(kMost) +
-                      "]");
-  }
+  const std::int64_t n = in_.read_count("a number of " + lower_case(section), kMost);
   in_.rest_of_line();
   return n;
 }
 
 void OvmReader::read_vertices() {
   const std::int64_t n = read_count("Vertices");
-  data_.points.reserve(room_for(n, 3));
+  data_.points.reserve(in_.room_for(n, 3));
   for (std::int64_t i = 0; i < n; ++i) {
     const std::size_t start = start_of_row();
     const std::string what =
@@ -114,7 +104,7 @@ template <std::size_t n>
 std::size_t OvmReader::read_rows(const char* section, const char* what, const char* parts,
                                  std::size_t n_parts, std::vector<std::array<int, n>>& rows) {
   const std::int64_t count = read_count(section);
-  rows.reserve(room_for(count, n));
+  rows.reserve(in_.room_for(count, n));
   const std::size_t first = in_.offset();
   for (std::int64_t i = 0; i < count; ++i) {
     const std::size_t start = start_of_row();

@@ -64,8 +64,6 @@ Eigen::Matrix3Xd used_points(const std::vector<Eigen::Vector3d>& points, Surface
 
 }  // namespace
 
-std::span<const std::string_view> surface_extensions() { return kExtensions; }
-
 bool is_surface_file(const std::filesystem::path& path) {
   return find_extension(path) != kExtensions.end();
 }

@@ -8,7 +8,6 @@
 
 #include <array>
 #include <filesystem>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,9 +21,6 @@ struct SurfaceMesh {
   std::vector<std::array<int, 3>> triangles;
   std::vector<std::string> notes;  ///< what was left out
 };
-
-/// Extensions with their dot, lower case.
-std::span<const std::string_view> surface_extensions();
 
 /// Whether the extension, in any case, is that of a surface file.
 bool is_surface_file(const std::filesystem::path& path);

@@ -1,6 +1,4 @@
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "io/polygon_soup.h"
 #include "io/text_scanner.h"
@@ -15,7 +13,8 @@ class OffReader {
 
   PolygonSoup read() {
     read_header();
-    const std::int64_t n_points = read_count("points"), n_faces = read_count("faces");
+    const std::int64_t n_points = in_.read_count("a number of points", kMostOfSurface),
+                       n_faces = in_.read_count("a number of faces", kMostOfSurface);
     in_.rest_of_line();  // the number of edges
     for (std::int64_t i = 0; i < n_points; ++i) read_point(i, n_points);
     for (std::int64_t i = 0; i < n_faces; ++i) read_face(i, n_faces);
@@ -36,27 +35,12 @@ class OffReader {
     if (in_.peek() == "BINARY") in_.fail_expected("a text file");
   }
 
-  std::int64_t read_count(const char* of_what) {
-    const std::string what =
-        std::string("a number of ") + of_what + " in [0, " + std::to_string(kMostOfSurface) + "]";
-    const std::size_t before = (in_.peek(), in_.offset());
-    std::int64_t n;
-    if (!in_.read(n) || n < 0 || n > kMostOfSurface) {
-      in_.seek(before);
-      in_.fail_expected(what);
-    }
-    return n;
-  }
-
   void read_point(std::int64_t i, std::int64_t n) {
     Eigen::Vector3d p;
     for (double& x : p) {
-      const std::size_t before = (in_.peek(), in_.offset());
-      if (!in_.read(x) || !std::isfinite(x)) {
-        in_.seek(before);
-        in_.fail_expected("a finite coordinate of point " + std::to_string(i) + " of " +
-                          std::to_string(n));
-      }
+      x = in_.read_finite([&] {
+        return "a finite coordinate of point " + std::to_string(i) + " of " + std::to_string(n);
+      });
     }
     if (has_more_) in_.rest_of_line();
     soup_.points.push_back(p);

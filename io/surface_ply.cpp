@@ -98,11 +98,7 @@ void PlyReader::read_element_header() {
   in_.next();
   PlyElement element;
   element.name = in_.next();
-  const std::size_t before = (in_.peek(), in_.offset());
-  if (!in_.read(element.count) || element.count < 0 || element.count > kMostOfSurface) {
-    in_.seek(before);
-    in_.fail_expected("a number of elements in [0, " + std::to_string(kMostOfSurface) + "]");
-  }
+  element.count = in_.read_count("a number of elements", kMostOfSurface);
   in_.rest_of_line();
   if (element.name == "vertex") n_points_ = static_cast<int>(element.count);
   elements_.push_back(std::move(element));

@@ -1,5 +1,4 @@
 #include <array>
-#include <cmath>
 #include <map>
 
 #include "io/byte_scanner.h"
@@ -91,12 +90,9 @@ class StlTextReader {
   Eigen::Vector3d read_point() {
     Eigen::Vector3d p;
     for (double& x : p) {
-      const std::size_t before = (in_.peek(), in_.offset());
-      if (!in_.read(x) || !std::isfinite(x)) {
-        in_.seek(before);
-        in_.fail_expected("a finite coordinate of triangle " +
-                          std::to_string(soup_.polygons.size()));
-      }
+      x = in_.read_finite([&] {
+        return "a finite coordinate of triangle " + std::to_string(soup_.polygons.size());
+      });
     }
     return p;
   }

@@ -29,6 +29,18 @@ std::string_view TextScanner::rest_of_line() {
   return line;
 }
 
+std::int64_t TextScanner::read_count(const std::string& what, std::int64_t most) {
+  const std::string range = what + " in [0, " + std::to_string(most) + "]";
+  const std::size_t before = (peek(), at_);
+  std::int64_t n;
+  if (!read(n)) fail_expected(range);
+  if (n < 0 || n > most) {
+    at_ = before;
+    fail_expected(range);
+  }
+  return n;
+}
+
 bool TextScanner::read(std::int64_t& value) {
   skip_blanks();
   const char* begin = text_.data() + at_;

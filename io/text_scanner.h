@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -38,6 +39,26 @@ class TextScanner {
   /// Reals too large for a double become infinite, too small ones zero.
   bool read(std::int64_t& value);
   bool read(double& value);
+
+  /// An integer from 0 to `most`. \throws FormatError "expected <what> in [0, <most>], found ..."
+  std::int64_t read_count(const std::string& what, std::int64_t most);
+  /// A number that is neither infinite nor none. \param what  gives its name for the message
+  template <class What>
+  double read_finite(const What& what) {
+    skip_blanks();
+    const std::size_t before = at_;
+    double value;
+    if (!read(value) || !std::isfinite(value)) {
+      at_ = before;
+      fail_expected(what());
+    }
+    return value;
+  }
+  /// How many rows of so many numbers to make room for, if there are to be n: a lying count must not
+  /// cost memory.
+  std::size_t room_for(std::int64_t n, int numbers) const {
+    return std::min<std::size_t>(n, remaining() / (2 * numbers) + 1);
+  }
 
   /// \throws FormatError "path:line: message", the line being that of the offset
   [[noreturn]] void fail(std::size_t offset, const std::string& message) const;

@@ -39,7 +39,7 @@ class AttributeReader {
     return *type;
   }
   int read_small_count(const std::string& what) {
-    return static_cast<int>(read_vtk_count(in_, what, kMostComponents));
+    return static_cast<int>(in_.read_count(what, kMostComponents));
   }
   // The numbers of `array`, from the next line on.
   void read_numbers(DataArray array, const VtkType& type) {

@@ -3,8 +3,8 @@
 namespace hexweft::detail {
 
 void VtkCells::read_corners(TextScanner& in, bool binary, std::size_t section) {
-  const std::int64_t n = read_vtk_count(in, "a number of cells", kMostVtkCells);
-  const std::int64_t size = read_vtk_count(in, "the size of the cell list", std::int64_t{1} << 40);
+  const std::int64_t n = in.read_count("a number of cells", kMostVtkCells);
+  const std::int64_t size = in.read_count("the size of the cell list", std::int64_t{1} << 40);
   in.rest_of_line();
   corner_block_ = {"CELLS", section, in.offset(), binary};
   // Since version 5.1 the corners come in one list and a second list says where each cell's start.
@@ -75,7 +75,7 @@ void VtkCells::read_offsets(TextScanner& in, std::int64_t n_offsets, std::int64_
 }
 
 void VtkCells::read_types(TextScanner& in, bool binary, std::size_t section, MeshData& data) {
-  const std::int64_t n = read_vtk_count(in, "a number of cells", kMostVtkCells);
+  const std::int64_t n = in.read_count("a number of cells", kMostVtkCells);
   if (n != static_cast<std::int64_t>(size())) {
     in.fail(section, "expected types of " + std::to_string(size()) + " cells, found " +
                          std::to_string(n) + " announced");

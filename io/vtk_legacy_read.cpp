@@ -106,7 +106,7 @@ void VtkReader::read_dataset() {
 
 void VtkReader::read_points() {
   once(have_points_, "POINTS");
-  const std::int64_t n = read_vtk_count(in_, "a number of points", kMostVtkPoints);
+  const std::int64_t n = in_.read_count("a number of points", kMostVtkPoints);
   const auto type = find_vtk_type(in_.peek());
   if (!type || type->kind == ValueKind::bit) in_.fail_expected("a type of coordinates");
   in_.rest_of_line();
@@ -120,7 +120,7 @@ void VtkReader::read_points() {
 void VtkReader::read_data_header(bool of_points) {
   if (!have_types_) in_.fail(section_, "expected CELL_TYPES before any data");
   const std::size_t rows = of_points ? data_.points.size() : cells_.size();
-  const std::int64_t n = read_vtk_count(in_, "a number of rows", std::numeric_limits<int>::max());
+  const std::int64_t n = in_.read_count("a number of rows", std::numeric_limits<int>::max());
   if (n != static_cast<std::int64_t>(rows)) {
     in_.fail(section_, "expected data of " + std::to_string(rows) +
                            (of_points ? " points" : " cells") + ", found " + std::to_string(n));

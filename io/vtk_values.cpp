@@ -71,18 +71,6 @@ std::optional<VtkType> find_vtk_type(std::string_view name) {
   return std::nullopt;
 }
 
-std::int64_t read_vtk_count(TextScanner& in, const std::string& what, std::int64_t most) {
-  const std::string range = what + " in [0, " + std::to_string(most) + "]";
-  const std::size_t before = (in.peek(), in.offset());
-  std::int64_t n;
-  if (!in.read(n)) in.fail_expected(range);
-  if (n < 0 || n > most) {
-    in.seek(before);
-    in.fail_expected(range);
-  }
-  return n;
-}
-
 DataArray read_vtk_values(TextScanner& in, const VtkBlock& block, const VtkType& type,
                           std::size_t count) {
   if (block.binary) return read_binary(in, block, type, count);

@@ -27,10 +27,6 @@ struct VtkType {
 /// The type of a legacy file of this name, in any case; empty if there is none.
 std::optional<VtkType> find_vtk_type(std::string_view name);
 
-/// Reads an integer from 0 to `most`. \throws FormatError "expected <what> in [0, <most>], found
-/// ..."
-std::int64_t read_vtk_count(TextScanner& in, const std::string& what, std::int64_t most);
-
 /// A table of numbers in the file: where the line announcing it starts and where its numbers start.
 struct VtkBlock {
   std::string title;  ///< for messages: "POINTS", "data array \"fixed\""

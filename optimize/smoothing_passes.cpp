@@ -3,13 +3,8 @@
 #include <algorithm>
 
 namespace hexweft {
-namespace {
 
-/// The energy sums over the corners of a hexahedron, its quality is that of the least: the sharper
-/// the energy, the closer the two. Others are what they are.
 bool may_be_sharpened(const Energy& energy) { return energy.name() == InverseScaledJacobian::name; }
-
-}  // namespace
 
 ParametrizationOptions options_for_least(ParametrizationOptions o, double floor) {
   o.least_on_projection = std::max(o.least_on_projection, floor);

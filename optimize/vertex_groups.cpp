@@ -1,6 +1,5 @@
 #include "optimize/vertex_groups.h"
 
-#include <algorithm>
 #include <string>
 
 #include "ovm/detail/disjoint_sets.h"

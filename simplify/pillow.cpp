@@ -9,6 +9,7 @@
 #include "simplify/component_cut.h"
 
 namespace hexweft {
+
 std::vector<int> components_of(const Sheet& sheet) {
   std::vector<int> crossed;
   for (const Crossing& x : sheet.crossings) crossed.push_back(x.component);

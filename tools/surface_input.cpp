@@ -7,6 +7,7 @@
 #include "io/surface_io.h"
 
 namespace hexweft::cli {
+
 ReferenceSurface read_surface_input(const std::filesystem::path& path,
                                     std::vector<std::string>& notes,
                                     const FeatureOptions& features) {
@@ -32,10 +33,12 @@ FeatureOptions parse_features(const std::string& text) {
   FeatureOptions options = {.mode = FeatureMode::angle};
   const char* end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, options.angle_deg);
-  const bool is_angle = error == std::errc() && stop == end;
-  if (!is_angle || !(options.angle_deg > 0 && options.angle_deg <= 180)) {
-    throw InputError("--features = " + text +
-                     ", expected auto, off or an angle in (0, 180] degrees");
+  const std::string expected = "--features = " + text + ", expected auto, off or an angle";
+  if (error != std::errc() || stop != end) throw InputError(expected + " in degrees");
+  try {
+    validate(options);
+  } catch (const InputError& problem) {
+    throw InputError(expected + ": " + problem.what());
   }
   return options;
 }

@@ -53,7 +53,7 @@ class PlanBuilder {
 
   std::vector<int> local_;  // by vertex handle
   std::vector<VertexHandle> vertices_;
-  detail::DisjointSets sets_;
+  DisjointSets sets_;
   CollapsePlan plan_;
 };
 

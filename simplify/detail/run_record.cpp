@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "optimize/hausdorff.h"
+#include "optimize/smoothing_passes.h"
 #include "ovm/errors.h"
 #include "ovm/neighborhood.h"
 #include "ovm/quality.h"
@@ -167,15 +168,15 @@ void Run::forget_failures() {
 void Run::compact() { replace_mesh(mesh_); }
 
 // What collapses leave is poor in few places: passes over the whole mesh for its worst cells gain less
-// than they cost. The default energy, which those passes sharpen, gains as much where the surface gives
-// way less, and a nearer mesh leaves the loop more room; others need it weaker.
+// than they cost. A sharpened energy gains as much where the surface gives way less, and a nearer mesh
+// leaves the loop more room; others need it weaker.
 SmoothingOptions Run::smoothing_options() const {
   constexpr double kGivingWay = 0.2;
-  const bool is_default = options_.parametrization.energy.name() == InverseScaledJacobian::name;
+  const bool is_sharp = may_be_sharpened(options_.parametrization.energy);
   return {.hausdorff_limit_rel = options_.hausdorff_limit_rel,
           .global_rounds = 0,
           .local_trials = options_.smoothing_trials,
-          .giving_way = is_default ? kGivingWay : SmoothingOptions().giving_way,
+          .giving_way = is_sharp ? kGivingWay : SmoothingOptions().giving_way,
           .parametrization = options_.parametrization,
           .initial_hausdorff_rel = options_.hausdorff_limit_rel};
 }
