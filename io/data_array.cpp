@@ -135,12 +135,15 @@ std::vector<DataArray> property_arrays(const HexMesh& mesh, std::vector<std::str
       array.components = std::max(array.components, 1);
       result.push_back(std::move(array));
     } else {
-      notes.push_back(
-          "property \"" + storage->name() + "\" was left out: " +
-          (fit == Fit::uneven ? "its rows differ in length" : "no file holds its type"));
+      notes.push_back(left_out(storage->name(), fit == Fit::uneven ? "its rows differ in length"
+                                                                   : "no file holds its type"));
     }
   }
   return result;
+}
+
+std::string left_out(const std::string& property, const std::string& reason) {
+  return "property \"" + property + "\" was left out: " + reason;
 }
 
 template void add_property<VertexTag>(HexMesh&, const DataArray&);

@@ -48,5 +48,9 @@ void add_property(HexMesh& mesh, const DataArray& array);
 template <class Tag>
 std::vector<DataArray> property_arrays(const HexMesh& mesh, std::vector<std::string>& notes);
 
+/// The note of a property that a file does not get.
+/// \param reason  a clause without a full stop
+std::string left_out(const std::string& property, const std::string& reason);
+
 }  // namespace detail
 }  // namespace hexweft

@@ -3,9 +3,8 @@
 #include <map>
 #include <set>
 
-#include "io/binary_numbers.h"
 #include "io/gmsh.h"
-#include "io/number_text.h"
+#include "io/number_writer.h"
 
 namespace hexweft {
 namespace {
@@ -15,7 +14,7 @@ using namespace detail;
 class GmshWriter {
  public:
   GmshWriter(const WriteOptions& options, std::string& out, std::vector<std::string>& notes)
-      : options_(options), out_(out), notes_(notes) {}
+      : options_(options), out_(out), notes_(notes), rows_(options, std::endian::little, out) {}
 
   void write(const HexMesh& mesh) {
     auto of_cells = property_arrays<CellTag>(mesh, notes_);
@@ -38,25 +37,13 @@ class GmshWriter {
   void write_data(const char* section, const DataArray& array);
   bool has_place(const DataArray& array);
   void leave_out(const DataArray& array, const std::string& reason) {
-    notes_.push_back("property \"" + array.name + "\" was left out: " + reason);
+    notes_.push_back(left_out(array.name, reason));
   }
 
   template <class... Part>
   void line(const Part&... parts) {
     ((out_ += parts), ...);
     out_ += '\n';
-  }
-  template <class T>
-  void put(T value) {
-    if (options_.binary) {
-      append_bytes(out_, value, std::endian::little);  // everywhere, as most files are
-    } else {
-      append_number(out_, value, options_.precision);
-      out_ += ' ';
-    }
-  }
-  void end_row() {
-    if (!options_.binary) out_.back() = '\n';
   }
   void end_section(const char* name) {
     if (options_.binary) out_ += '\n';
@@ -66,6 +53,7 @@ class GmshWriter {
   const WriteOptions& options_;
   std::string& out_;
   std::vector<std::string>& notes_;
+  NumberWriter rows_;  // the lowest byte first everywhere, as most files are
 };
 
 // The tags of that name, which leave the arrays, or none; those that no tag can be stay data.
@@ -87,7 +75,7 @@ void GmshWriter::write_format() {
   line("$MeshFormat");
   line("2.2 ", options_.binary ? "1" : "0", " 8");
   if (options_.binary) {
-    put(std::int32_t{1});
+    rows_.put(std::int32_t{1});
     out_ += '\n';
   }
   line("$EndMeshFormat");
@@ -98,9 +86,9 @@ void GmshWriter::write_nodes(const HexMesh& mesh) {
   line(std::to_string(mesh.n_vertices()));
   std::int32_t tag = 0;
   for (VertexHandle v : mesh.vertices()) {
-    put(++tag);
-    for (double x : mesh.point(v)) put(x);
-    end_row();
+    rows_.put(++tag);
+    for (double x : mesh.point(v)) rows_.put(x);
+    rows_.end_row();
   }
   end_section("Nodes");
 }
@@ -133,24 +121,24 @@ void GmshWriter::write_elements(const HexMesh& mesh, const Groups& groups) {
   line("$Elements");
   line(std::to_string(mesh.n_cells()));
   if (options_.binary) {  // one block: its type, how many there are, and their number of groups
-    put(kHexahedron);
-    put(static_cast<std::int32_t>(mesh.n_cells()));
-    put(kGroups);
+    rows_.put(kHexahedron);
+    rows_.put(static_cast<std::int32_t>(mesh.n_cells()));
+    rows_.put(kGroups);
   }
   std::int32_t row = 0;
   const auto tag = [&](const std::vector<std::int64_t>& tags) {
     return static_cast<std::int32_t>(tags.empty() ? 0 : tags[row]);
   };
   for (CellHandle c : mesh.cells()) {
-    put(row + 1);
+    rows_.put(row + 1);
     if (!options_.binary) {
-      put(kHexahedron);
-      put(kGroups);
+      rows_.put(kHexahedron);
+      rows_.put(kGroups);
     }
-    put(tag(groups.physical));
-    put(tag(groups.geometrical));
-    for (VertexHandle v : mesh.vertices(c)) put(number[v.idx] + 1);
-    end_row();
+    rows_.put(tag(groups.physical));
+    rows_.put(tag(groups.geometrical));
+    for (VertexHandle v : mesh.vertices(c)) rows_.put(number[v.idx] + 1);
+    rows_.end_row();
     ++row;
   }
   end_section("Elements");
@@ -187,12 +175,12 @@ void GmshWriter::write_data(const char* section, const DataArray& array) {
   line("3\n0\n", std::to_string(array.components), "\n", std::to_string(rows));  // the step first
   std::size_t next = 0;
   for (std::size_t i = 0; i < rows; ++i) {
-    put(static_cast<std::int32_t>(i + 1));
+    rows_.put(static_cast<std::int32_t>(i + 1));
     for (int j = 0; j < array.components; ++j, ++next) {
-      put(array.kind == ValueKind::real ? array.reals[next]
-                                        : static_cast<double>(array.integers[next]));
+      rows_.put(array.kind == ValueKind::real ? array.reals[next]
+                                              : static_cast<double>(array.integers[next]));
     }
-    end_row();
+    rows_.end_row();
   }
   end_section(section);
 }

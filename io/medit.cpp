@@ -218,7 +218,7 @@ std::vector<std::int64_t> references(const HexMesh& mesh, std::size_t n,
         array.components == 1) {
       result = std::move(array.integers);
     } else {
-      notes.push_back("property \"" + array.name + "\" was left out: Medit has no place for it");
+      notes.push_back(left_out(array.name, "Medit has no place for it"));
     }
   }
   return result;

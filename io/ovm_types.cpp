@@ -97,9 +97,7 @@ std::vector<OvmProperty> ovm_properties(const HexMesh& mesh, OvmFile file,
     const auto type = std::find_if(kTypes.begin(), kTypes.end(), [&](const OvmType& t) {
       return !t.name(file).empty() && holds(t, array);
     });
-    const auto leave_out = [&](const char* why) {
-      notes.push_back("property \"" + array.name + "\" was left out: " + why);
-    };
+    const auto leave_out = [&](const char* why) { notes.push_back(left_out(array.name, why)); };
     if (type == kTypes.end()) {
       leave_out("OpenVolumeMesh files have no type for its rows");
     } else if (file == OvmFile::text && !fits_header(array.name)) {

@@ -1,7 +1,6 @@
 #include <utility>
 
-#include "io/binary_numbers.h"
-#include "io/number_text.h"
+#include "io/number_writer.h"
 #include "io/vtk_attributes.h"
 #include "io/vtk_legacy.h"
 #include "io/vtk_values.h"
@@ -13,7 +12,8 @@ using namespace detail;
 
 class VtkWriter {
  public:
-  VtkWriter(const WriteOptions& options, std::string& out) : options_(options), out_(out) {}
+  VtkWriter(const WriteOptions& options, std::string& out)
+      : options_(options), out_(out), rows_(options, std::endian::big, out) {}
 
   void write(const HexMesh& mesh, std::vector<std::string>& notes) {
     out_ += "# vtk DataFile Version 3.0\nhexahedral mesh\n";
@@ -29,8 +29,8 @@ class VtkWriter {
   void write_points(const HexMesh& mesh) {
     line("POINTS ", std::to_string(mesh.n_vertices()), " double");
     for (VertexHandle v : mesh.vertices()) {
-      for (double x : mesh.point(v)) put(x);
-      end_row();
+      for (double x : mesh.point(v)) rows_.put(x);
+      rows_.end_row();
     }
     end_block();
   }
@@ -39,15 +39,15 @@ class VtkWriter {
     const int n = mesh.n_cells();
     line("CELLS ", std::to_string(n), " ", std::to_string(9LL * n));
     for (CellHandle c : mesh.cells()) {
-      put(std::int32_t{8});
-      for (VertexHandle v : mesh.vertices(c)) put(std::int32_t{number[v.idx]});
-      end_row();
+      rows_.put(std::int32_t{8});
+      for (VertexHandle v : mesh.vertices(c)) rows_.put(std::int32_t{number[v.idx]});
+      rows_.end_row();
     }
     end_block();
     line("CELL_TYPES ", std::to_string(n));
     for (int i = 0; i < n; ++i) {
-      put(std::int32_t{12});
-      end_row();
+      rows_.put(std::int32_t{12});
+      rows_.end_row();
     }
     end_block();
   }
@@ -61,24 +61,13 @@ class VtkWriter {
     ((out_ += parts), ...);
     out_ += '\n';
   }
-  template <class T>
-  void put(T value) {
-    if (options_.binary) {
-      append_bytes(out_, value, std::endian::big);
-    } else {
-      append_number(out_, value, options_.precision);
-      out_ += ' ';
-    }
-  }
-  void end_row() {
-    if (!options_.binary) out_.back() = '\n';
-  }
   void end_block() {
     if (options_.binary) out_ += '\n';
   }
 
   const WriteOptions& options_;
   std::string& out_;
+  NumberWriter rows_;
 };
 
 std::string VtkWriter::type_name(const DataArray& array) {
@@ -121,16 +110,16 @@ void VtkWriter::write_rows(const DataArray& array) {
   std::uint8_t bits = 0;
   for (std::size_t i = 0; i < array.size(); ++i) {
     if (array.kind == ValueKind::real) {
-      put(array.reals[i]);
+      rows_.put(array.reals[i]);
     } else if (is_bit && options_.binary) {
       bits |= static_cast<std::uint8_t>(array.integers[i] << (7 - i % 8));
-      if (i % 8 == 7 || i + 1 == array.size()) put(std::exchange(bits, std::uint8_t{0}));
+      if (i % 8 == 7 || i + 1 == array.size()) rows_.put(std::exchange(bits, std::uint8_t{0}));
     } else if (is_long) {
-      put(array.integers[i]);
+      rows_.put(array.integers[i]);
     } else {
-      put(static_cast<std::int32_t>(array.integers[i]));
+      rows_.put(static_cast<std::int32_t>(array.integers[i]));
     }
-    if ((i + 1) % array.components == 0) end_row();
+    if ((i + 1) % array.components == 0) rows_.end_row();
   }
   end_block();
 }

@@ -1,6 +1,5 @@
 #include "io/base64.h"
-#include "io/binary_numbers.h"
-#include "io/number_text.h"
+#include "io/number_writer.h"
 #include "io/vtk_grid.h"
 #include "io/vtu.h"
 #include "io/vtu_document.h"
@@ -13,7 +12,10 @@ using namespace detail;
 
 class VtuWriter {
  public:
-  VtuWriter(const WriteOptions& options, std::string& out) : options_(options), out_(out) {}
+  VtuWriter(const WriteOptions& options, std::string& out)
+      : options_(options),
+        out_(out),
+        rows_(options, std::endian::little, options.binary ? bytes_ : out) {}
 
   void write(const HexMesh& mesh, std::vector<std::string>& notes) {
     out_ +=
@@ -35,8 +37,8 @@ class VtuWriter {
   void write_points(const HexMesh& mesh) {
     begin_array("Float64", "Points", 3);
     for (VertexHandle v : mesh.vertices()) {
-      for (double x : mesh.point(v)) put(x);
-      end_row();
+      for (double x : mesh.point(v)) rows_.put(x);
+      rows_.end_row();
     }
     end_array();
   }
@@ -52,18 +54,6 @@ class VtuWriter {
     if (components != 1) out_ += " NumberOfComponents=\"" + std::to_string(components) + "\"";
     out_ += attributes + " format=\"" + (options_.binary ? "binary" : "ascii") + "\">\n";
   }
-  template <class T>
-  void put(T value) {
-    if (options_.binary) {
-      append_bytes(bytes_, value, std::endian::little);
-    } else {
-      append_number(out_, value, options_.precision);
-      out_ += ' ';
-    }
-  }
-  void end_row() {
-    if (!options_.binary) out_.back() = '\n';
-  }
   void end_array() {
     if (options_.binary) {
       std::string data;
@@ -78,26 +68,27 @@ class VtuWriter {
   const WriteOptions& options_;
   std::string& out_;
   std::string bytes_;  // of the current array
+  NumberWriter rows_;
 };
 
 void VtuWriter::write_cells(const HexMesh& mesh) {
   const std::vector<int> number = vertex_numbers(mesh);
   begin_array("Int32", "connectivity", 1);
   for (CellHandle c : mesh.cells()) {
-    for (VertexHandle v : mesh.vertices(c)) put(std::int32_t{number[v.idx]});
-    end_row();
+    for (VertexHandle v : mesh.vertices(c)) rows_.put(std::int32_t{number[v.idx]});
+    rows_.end_row();
   }
   end_array();
   begin_array("Int32", "offsets", 1);
   for (int i = 1; i <= mesh.n_cells(); ++i) {
-    put(std::int32_t{8 * i});
-    end_row();
+    rows_.put(std::int32_t{8 * i});
+    rows_.end_row();
   }
   end_array();
   begin_array("UInt8", "types", 1);
   for (int i = 0; i < mesh.n_cells(); ++i) {
-    put(std::uint8_t{kVtkHexahedron});
-    end_row();
+    rows_.put(std::uint8_t{kVtkHexahedron});
+    rows_.end_row();
   }
   end_array();
 }
@@ -116,7 +107,7 @@ void VtuWriter::write_data(const std::string& section, const std::vector<DataArr
     if (is_xml_text(array.name)) {
       write_array(array);
     } else {
-      notes.push_back("property \"" + array.name + "\" was left out: no XML file holds its name");
+      notes.push_back(left_out(array.name, "no XML file holds its name"));
     }
   }
   out_ += "</" + section + ">\n";
@@ -128,15 +119,15 @@ void VtuWriter::write_array(const DataArray& array) {
               is_bit ? std::string(" ") + kVtuBit + "=\"1\"" : "");
   for (std::size_t i = 0; i < array.size(); ++i) {
     if (array.kind == ValueKind::real) {
-      put(array.reals[i]);
+      rows_.put(array.reals[i]);
     } else if (is_bit) {
-      put(static_cast<std::uint8_t>(array.integers[i]));
+      rows_.put(static_cast<std::uint8_t>(array.integers[i]));
     } else if (is_short) {
-      put(static_cast<std::int32_t>(array.integers[i]));
+      rows_.put(static_cast<std::int32_t>(array.integers[i]));
     } else {
-      put(array.integers[i]);
+      rows_.put(array.integers[i]);
     }
-    if ((i + 1) % array.components == 0) end_row();
+    if ((i + 1) % array.components == 0) rows_.end_row();
   }
   end_array();
 }
