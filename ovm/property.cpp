@@ -19,6 +19,10 @@ void PropertyRegistry::copy_element(int from, int to) {
   for (auto& s : storages_) s->copy_element(from, to);
 }
 
+void PropertyRegistry::take_mean(std::span<const int> from, int to) {
+  for (auto& s : storages_) s->take_mean(from, to);
+}
+
 void PropertyRegistry::open_savepoint() {
   savepoint_sizes_.push_back(size_);
   for (auto& s : storages_) s->journal().open_savepoint();

@@ -7,10 +7,12 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <typeinfo>
 #include <vector>
 
+#include "ovm/detail/mean_value.h"
 #include "ovm/errors.h"
 #include "ovm/handles.h"
 #include "ovm/journaled_array.h"
@@ -27,6 +29,8 @@ class PropertyStorageBase {
   virtual void grow(int n) = 0;                               ///< new elements get the default
   virtual void keep(const std::vector<int>& old_of_new) = 0;  ///< compaction
   virtual void copy_element(int from, int to) = 0;
+  /// The mean of reals, what numbers of other kinds have in common; else the default.
+  virtual void take_mean(std::span<const int> from, int to) = 0;
   virtual JournaledArrayBase& journal() = 0;
   virtual std::shared_ptr<PropertyStorageBase> clone() const = 0;
 
@@ -45,6 +49,13 @@ class PropertyStorage final : public PropertyStorageBase {
   void grow(int n) override { values_.resize(n, default_); }
   void keep(const std::vector<int>& old_of_new) override { values_.keep(old_of_new); }
   void copy_element(int from, int to) override { values_.set(to, T(values_[from])); }
+  void take_mean(std::span<const int> from, int to) override {
+    if constexpr (detail::Numeric<T>) {
+      std::vector<T> values;
+      for (int i : from) values.push_back(values_[i]);
+      values_.set(to, detail::mean_value(values, default_));
+    }
+  }
   JournaledArrayBase& journal() override { return values_; }
   std::shared_ptr<PropertyStorageBase> clone() const override {
     return std::make_shared<PropertyStorage>(*this);
@@ -65,7 +76,8 @@ class PropertyRegistry {
   int size() const { return size_; }
   void grow(int n);
   void keep(const std::vector<int>& old_of_new);
-  void copy_element(int from, int to);  ///< every property of `from` to `to`
+  void copy_element(int from, int to);                ///< every property of `from` to `to`
+  void take_mean(std::span<const int> from, int to);  ///< the same for an element amid others
   void open_savepoint();
   void rollback();
   void commit();

@@ -3,6 +3,9 @@
 /// elements too: their values stay in place until garbage is collected.
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "ovm/hex_mesh.h"
 
 namespace hexweft::detail {
@@ -17,6 +20,13 @@ inline HalfEdgeHandle half_edge_of(const HexMesh& mesh, CellHandle c, int k) {
 template <class Tag>
 void carry(HexMesh& mesh, Handle<Tag> from, Handle<Tag> to) {
   if (from != to) property_registry<Tag>(mesh)->copy_element(from.idx, to.idx);
+}
+
+/// To a vertex amid others: the mean of reals, of other numbers what the others have in common.
+inline void carry_mean(HexMesh& mesh, std::span<const VertexHandle> from, VertexHandle to) {
+  std::vector<int> parents;
+  for (VertexHandle v : from) parents.push_back(v.idx);
+  property_registry<VertexTag>(mesh)->take_mean(parents, to.idx);
 }
 
 /// Values of the edge and of both its half-edges, the direction kept.

@@ -254,6 +254,7 @@ SheetInsertion SheetInserter::run() {
   for (InterfaceVertex& v : vertices_) {
     const Vector3d p = mesh_.point(v.outer);
     v.inner = mesh_.add_vertex(p + options_.depth_rel * (v.target - p));
+    detail::carry(mesh_, v.outer, v.inner);
     result_.copies.push_back({v.outer, v.inner});
   }
   for (CellHandle c : cells) replace(c);

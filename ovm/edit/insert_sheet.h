@@ -40,10 +40,11 @@ struct SheetInsertion {
   std::vector<Replacement> replaced;  ///< cells of the set that touch the layer have new handles
 };
 
+/// Elements that are replaced hand on their properties, and vertices to their copies; the rim of the
+/// sheet on the mesh boundary takes over those of the boundary faces and edges it widens. What else is
+/// new has the defaults.
 /// \param inside  live cells, in any order
 /// \throws InputError for a cell that is none of the mesh, or an option out of range
-/// Elements that are replaced hand on their properties; the rim of the sheet on the mesh boundary
-/// takes over those of the boundary faces and edges it widens. What else is new has the defaults.
 SheetInsertion insert_sheet(HexMesh& mesh, std::span<const CellHandle> inside,
                             const InsertSheetOptions& options = {});
 

@@ -55,6 +55,7 @@ VertexHandle SheetSplitter::add_middle(std::span<const VertexHandle> parents) {
   for (VertexHandle v : parents) sum += mesh_.point(v);
   SplitVertex& made = result_.vertices.emplace_back();
   made.vertex = mesh_.add_vertex(sum / static_cast<double>(parents.size()));
+  detail::carry_mean(mesh_, parents, made.vertex);
   made.n_parents = static_cast<int>(parents.size());
   std::copy(parents.begin(), parents.end(), made.parents.begin());
   return made.vertex;

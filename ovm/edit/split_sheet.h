@@ -35,8 +35,9 @@ struct SheetSplit {
 
 /// Splits every cell of the sheet: in 2 where it is crossed once, in 4 where twice, in 8 where
 /// three times. The mesh stays conforming. Children of cells, edges, faces and half-faces take over
-/// the properties of their parents; new elements inside a cell or across a face, and new vertices,
-/// have the defaults. Positions are means of the parents, nothing is projected.
+/// the properties of their parents, new vertices the means of reals and of other numbers what their
+/// parents have in common; new elements inside a cell or across a face have the defaults. Positions
+/// are means of the parents, nothing is projected.
 /// \throws InputError if the edge is deleted or the sheet is none of this mesh; nothing changes
 SheetSplit split_sheet(HexMesh& mesh, EdgeHandle e);
 SheetSplit split_sheet(HexMesh& mesh, const DualSheet& sheet);

@@ -1,5 +1,7 @@
 #include "ovm/edit/insert_sheet.h"
 
+#include <array>
+
 #include <gmock/gmock.h>
 
 #include "ovm/errors.h"
@@ -115,6 +117,16 @@ TEST(InsertSheet, InAGridKeepsSharpEdgesAndInvertsNothing) {
       }
     }
   }
+}
+
+TEST(InsertSheet, CopiesOfVerticesHaveTheirProperties) {
+  HexMesh mesh = make_grid({3, 3, 3});
+  VertexProperty<int> number(mesh, -1);
+  for (VertexHandle v : mesh.vertices()) number[v] = v.idx;
+  const std::array<CellHandle, 1> inside{CellHandle(13)};
+  const SheetInsertion made = insert_sheet(mesh, inside);
+  ASSERT_EQ(made.copies.size(), 8u);
+  for (const auto& copy : made.copies) EXPECT_EQ(number[copy.inner], copy.outer.idx);
 }
 
 TEST(InsertSheet, AcrossAGridIsALayerOfBoxes) {

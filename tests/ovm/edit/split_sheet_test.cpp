@@ -1,6 +1,8 @@
 #include "ovm/edit/split_sheet.h"
 
+#include <algorithm>
 #include <map>
+#include <string>
 
 #include <gmock/gmock.h>
 
@@ -127,6 +129,29 @@ TEST_P(EveryMeshFamily, ChildrenTakeOverProperties) {
     for (HalfFaceHandle hf : mesh_.halffaces(c)) EXPECT_EQ(outside[hf] == 1, mesh_.is_boundary(hf));
   }
   for (const auto& [c, n] : n_children) EXPECT_EQ(n, 0) << "of cell " << c;
+}
+
+TEST_P(EveryMeshFamily, NewVerticesTakeTheMeanOfRealsAndWhatTheirParentsHaveInCommon) {
+  VertexProperty<Vector3d> place(mesh_, Vector3d::Zero());
+  VertexProperty<int> side(mesh_, -1);
+  VertexProperty<std::string> text(mesh_, "none");
+  VertexProperty<Eigen::VectorXd> uneven(mesh_, Eigen::VectorXd::Zero(7));
+  for (VertexHandle v : mesh_.vertices()) {
+    place[v] = mesh_.point(v);
+    side[v] = mesh_.point(v).x() < 0.3 ? 3 : 4;
+    text[v] = "some";
+    uneven[v] = Eigen::VectorXd::Ones(side[v]);
+  }
+  const SheetSplit split = split_sheet(mesh_, sheets_[sheets_.size() / 2]);
+  for (const SplitVertex& s : split.vertices) {
+    EXPECT_NEAR((place[s.vertex] - mesh_.point(s.vertex)).norm(), 0, 1e-12);
+    const auto parents = s.parent_vertices();
+    const bool together = std::all_of(parents.begin(), parents.end(),
+                                      [&](VertexHandle v) { return side[v] == side[parents[0]]; });
+    EXPECT_EQ(side[s.vertex], together ? side[parents[0]] : -1);
+    EXPECT_EQ(uneven[s.vertex].size(), together ? side[parents[0]] : 7);
+    EXPECT_EQ(text[s.vertex], "none");
+  }
 }
 
 TEST(SplitSheet, OfAGridInsertsALayer) {
