@@ -7,6 +7,7 @@
 #include "simplify/peel.h"
 #include "simplify/pillow_search.h"
 #include "simplify/pillowed_collapse.h"
+#include "tools/ranking_arguments.h"
 #include "tools/single_trial.h"
 
 namespace hexweft {
@@ -111,13 +112,19 @@ int main(int argc, char** argv) {
                  "Id of a peel, likewise: what lies of a sheet under one face");
   app.add_option(
       "--pillow", request.pillow,
-      "Id of a pillow, as hexweft-rank lists it with its default filters: it takes the way "
-      "free for a sheet");
+      "Id of a pillow, as hexweft-rank lists it with the same filters: it takes the way free for a "
+      "sheet");
   app.add_option("--diagonal", request.diagonal,
                  "Diagonal along which the chord folds: first or second (default: the one that "
                  "leaves the smaller valence error)")
       ->check(CLI::IsMember({"first", "second"}));
   request.trial.add_to(app);
+  app.add_option("--splits", request.trial.options.splits_per_trial,
+                 "Sheets that may be split where the surface would be left too far away, two for "
+                 "each layer that goes and two more at most")
+      ->check(cli::in_range(0, 1e6))
+      ->capture_default_str();
+  cli::add_valence_options(app, request.trial.options.valence);
   program.add_json();
   return program.run(argc, argv, [&] { return run(program, request); });
 }

@@ -71,23 +71,26 @@ void add_filter_options(CLI::App& app, SimplifyOptions& options) {
                  "Valence error D(c) / 3k that a chord may leave behind")
       ->capture_default_str()
       ->group("Filters");
-  app.add_option("--min-interior-valence", options.valence.min_interior,
-                 "Fewest hexahedra at an inner edge")
+  add_valence_options(app, options.valence);
+}
+
+void add_valence_options(CLI::App& app, ValenceLimits& limits) {
+  app.add_option("--min-interior-valence", limits.min_interior, "Fewest hexahedra at an inner edge")
       ->check(in_range(1, 100))
       ->capture_default_str()
       ->group("Filters");
-  app.add_option("--max-interior-valence", options.valence.max_interior,
+  app.add_option("--max-interior-valence", limits.max_interior,
                  "Most hexahedra at an inner edge that merges, unless it has more already")
       ->check(in_range(1, 100))
       ->capture_default_str()
       ->group("Filters");
-  app.add_option("--max-boundary-valence", options.valence.max_boundary,
+  app.add_option("--max-boundary-valence", limits.max_boundary,
                  "Most hexahedra at an edge of the boundary that merges")
       ->check(in_range(1, 100))
       ->capture_default_str()
       ->group("Filters");
   app.add_option(
-         "--max-boundary-angle", options.valence.max_angle_deg,
+         "--max-boundary-angle", limits.max_angle_deg,
          "Widest angle in degrees, between sides on the boundary, that a single hexahedron may "
          "come to fill; 360 allows all")
       ->check(in_range(1, 360))

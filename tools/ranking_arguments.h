@@ -31,7 +31,9 @@ class RankingArguments {
   std::vector<std::function<void(RankingWeights&)>> changes_;
 };
 
-/// The filters of candidates: chord deviation and bounds on valences.
+/// The filters of candidates: chord deviation and add_valence_options().
 void add_filter_options(CLI::App& app, SimplifyOptions& options);
+/// The bounds on what a collapse may leave behind.
+void add_valence_options(CLI::App& app, ValenceLimits& limits);
 
 }  // namespace hexweft::cli

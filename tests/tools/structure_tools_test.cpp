@@ -191,6 +191,29 @@ TEST_F(CollapseTool, TakesASheetOutWithThePillowThatRankLists) {
   EXPECT_EQ(run("hexweft-collapse in.vtk -o out.vtk --pillow 1000").exit_code, 2);
 }
 
+// Without its padding a cube has edges of single hexahedra, which fill 90 degrees there.
+TEST_F(CollapseTool, TakesTheFiltersOfRank) {
+  write_hex_mesh(file("in.vtk"), make_padded_cube(3));
+  const auto sheet_with = [&](const std::string& refusal, const std::string& options) {
+    const Json ranked = Json::parse(run("hexweft-rank in.vtk --json - " + options).out);
+    for (const Json& s : ranked["sheets"]) {
+      if (s["refusal"] == refusal) return s["id"].get<int>();
+    }
+    return -1;
+  };
+  const std::string narrow = " --max-boundary-angle 80";
+  const int padding = sheet_with("angle", narrow);
+  ASSERT_GE(padding, 0);
+  EXPECT_EQ(sheet_with("angle", ""), -1);
+  const std::string collapse =
+      "hexweft-collapse in.vtk -o out.vtk --sheet " + std::to_string(padding);
+  const ToolRun refused = run(collapse + narrow);
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_THAT(refused.err, testing::HasSubstr("wide angle"));
+  ASSERT_EQ(run(collapse).exit_code, 0);
+  EXPECT_EQ(info("out.vtk")["components"], 1);
+}
+
 TEST_F(CollapseTool, SaysWhyNotAndWritesNothing) {
   make("grid --resolution 1");
   const ToolRun result = run("hexweft-collapse in.vtk -o out.vtk --sheet 0");
