@@ -1,6 +1,8 @@
 #include "simplify/feature_targets.h"
 
 #include <algorithm>
+#include <optional>
+#include <vector>
 
 #include <gmock/gmock.h>
 
