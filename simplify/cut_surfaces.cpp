@@ -93,7 +93,9 @@ void CutSurfaces::spread() {
     const HalfFaceHandle hf = mesh_.halfface(front_.back());
     front_.pop_back();
     for (EdgeHandle e : mesh_.edges(hf)) {
-      if (graph_.singular_edge[e.idx] || graph_.boundary_edge[e.idx]) continue;
+      // Surfaces end at singular and boundary edges; round traced ones, the singular among them, all is
+      // cut already.
+      if (traced_[e.idx] || graph_.boundary_edge[e.idx]) continue;
       // Two quarter turns round an edge of four cells lead straight across it.
       const HalfFaceHandle turned = mesh_.opposite(mesh_.adjacent_in_cell(hf, e));
       const FaceHandle across = mesh_.face(mesh_.adjacent_in_cell(turned, e));

@@ -1,6 +1,7 @@
 #include "simplify/pillow_search.h"
 
 #include <algorithm>
+#include <numeric>
 #include <unordered_map>
 
 #include "ovm/detail/sort_unique.h"
@@ -65,23 +66,21 @@ Obstacle find_obstacle(HexMesh& mesh, const SingularityGraph& graph, const Colla
   return {refusal, groups_out_of_limits(mesh, graph, plan, limits)};
 }
 
-// The pillows of one sheet.
+// The pillows of one sheet that gain so much at least.
 class PillowSearch {
  public:
+  /// \param most_added  components that a pillow may have
   PillowSearch(HexMesh& mesh, const BaseComplex& bc, const Sheet& sheet,
-               const ValenceLimits& limits)
+               const ValenceLimits& limits, int most_added)
       : mesh_(mesh),
         bc_(bc),
         sheet_(sheet),
         limits_(limits),
         plan_(plan_sheet_collapse(mesh, bc, sheet)),
-        n_components_(static_cast<int>(components_of(sheet).size())) {}
-
-  int n_components() const { return n_components_; }
+        most_added_(most_added) {}
 
   std::vector<Pillow> run() {
     std::vector<Pillow> pillows;
-    if (n_components_ <= kLeastGain) return pillows;
     const Obstacle obstacle = find_obstacle(mesh_, bc_.graph, plan_, limits_);
     if (obstacle.groups.empty()) return pillows;
     for (int side = 0; side < 2; ++side) {
@@ -96,7 +95,7 @@ class PillowSearch {
     constexpr int kTimes = 4;
     for (int i = 0; i < kTimes; ++i) {
       auto pillow = smallest_pillow(mesh_, bc_, sheet_, plan_, groups, side);
-      if (!pillow || pillow->added + kLeastGain > n_components_) return std::nullopt;
+      if (!pillow || pillow->added > most_added_) return std::nullopt;
       Transaction look(mesh_);
       const auto inserted = insert_pillow(mesh_, bc_, sheet_, plan_, *pillow);
       if (!inserted) return std::nullopt;
@@ -134,24 +133,36 @@ class PillowSearch {
   const Sheet& sheet_;
   const ValenceLimits& limits_;
   CollapsePlan plan_;  // without a pillow
-  int n_components_;   // of the sheet
+  int most_added_;
 };
 
 }  // namespace
 
 std::vector<PillowedSheet> find_pillows(HexMesh& mesh, const BaseComplex& bc,
                                         const std::vector<Sheet>& sheets,
-                                        const ValenceLimits& limits) {
+                                        const ValenceLimits& limits, int most) {
+  const auto n = static_cast<int>(sheets.size());
+  std::vector<int> n_components(n), in_turn(n);
+  for (int i = 0; i < n; ++i) n_components[i] = static_cast<int>(components_of(sheets[i]).size());
+  std::iota(in_turn.begin(), in_turn.end(), 0);
+  std::stable_sort(in_turn.begin(), in_turn.end(),
+                   [&](int a, int b) { return n_components[a] > n_components[b]; });
   std::vector<PillowedSheet> found;
-  for (int i = 0; i < static_cast<int>(sheets.size()); ++i) {
-    PillowSearch search(mesh, bc, sheets[i], limits);
-    for (Pillow& pillow : search.run()) {
-      const int gain = search.n_components() - pillow.added;
+  int least_gain = kLeastGain;
+  for (int i : in_turn) {
+    if (n_components[i] <= least_gain) break;  // a pillow has one component at least
+    const int most_added = n_components[i] - least_gain;
+    for (Pillow& pillow : PillowSearch(mesh, bc, sheets[i], limits, most_added).run()) {
+      const int gain = n_components[i] - pillow.added;
       found.push_back({i, std::move(pillow), gain});
     }
+    std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) {
+      return a.gain != b.gain ? a.gain > b.gain : a.sheet < b.sheet;
+    });
+    if (std::ssize(found) < most) continue;
+    found.resize(most);
+    least_gain = found.back().gain;
   }
-  std::stable_sort(found.begin(), found.end(),
-                   [](const PillowedSheet& a, const PillowedSheet& b) { return a.gain > b.gain; });
   return found;
 }
 

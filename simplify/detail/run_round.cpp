@@ -70,11 +70,11 @@ bool Run::pillow_one() {
   options.min_scaled_jacobian = careful_.options.min_scaled_jacobian;
   options.mean_scaled_jacobian = careful_.options.mean_scaled_jacobian;
   const std::vector<Sheet> sheets = timed(Stage::ranking, [&] { return extract_sheets(bc_); });
-  const std::vector<PillowedSheet> candidates =
-      timed(Stage::planning, [&] { return find_pillows(mesh_, bc_, sheets, options.valence); });
-  for (int i = 0; i < std::min<int>(kMostTried, std::ssize(candidates)); ++i) {
+  const std::vector<PillowedSheet> candidates = timed(Stage::planning, [&] {
+    return find_pillows(mesh_, bc_, sheets, options.valence, kMostTried);
+  });
+  for (const PillowedSheet& c : candidates) {
     if (is_cut_short()) return false;
-    const PillowedSheet& c = candidates[i];
     if (attempt(sheets[c.sheet], c.pillow, options)) return true;
   }
   return false;

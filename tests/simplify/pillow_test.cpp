@@ -168,6 +168,22 @@ TEST_P(PillowsOfEveryFamily, ATrialThatIsRefusedLeavesEverythingAsItWas) {
   }
 }
 
+TEST_P(PillowsOfEveryFamily, AskedForSomeTheFirstOfAllAreFound) {
+  HexMesh mesh = GetParam().make();
+  const BaseComplex bc = extract_base_complex(mesh);
+  const std::vector<Sheet> sheets = extract_sheets(bc);
+  const std::vector<PillowedSheet> all = find_pillows(mesh, bc, sheets, {.max_interior = 8});
+  for (const int most : {1, 2, 3, 5, 8}) {
+    const auto some = find_pillows(mesh, bc, sheets, {.max_interior = 8}, most);
+    ASSERT_EQ(some.size(), std::min<std::size_t>(most, all.size()));
+    for (std::size_t i = 0; i < some.size(); ++i) {
+      EXPECT_EQ(some[i].sheet, all[i].sheet);
+      EXPECT_EQ(some[i].gain, all[i].gain);
+      EXPECT_EQ(some[i].pillow.inside, all[i].pillow.inside);
+    }
+  }
+}
+
 TEST(Pillow, SomeFamiliesHaveThem) {
   int found = 0, inserted = 0;
   for (const MeshFamily& family : mesh_families()) {
