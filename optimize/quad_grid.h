@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -29,6 +30,18 @@ class QuadGrid {
   /// \param id  ≥ 0, not in the grid
   void insert(int id, const QuadPoints& quad);
   void remove(int id);
+  /// \param new_id  of an old one in the grid, in the same order
+  template <class F>
+  void renumber(F&& new_id) {
+    std::vector<int> slot_of;
+    for (std::size_t i = 0; i < slot_of_.size(); ++i) {
+      if (slot_of_[i] < 0) continue;
+      const int id = quads_[slot_of_[i]].id = new_id(static_cast<int>(i));
+      slot_of.resize(id + 1, -1);
+      slot_of[id] = slot_of_[i];
+    }
+    slot_of_ = std::move(slot_of);
+  }
   bool contains(int id) const {
     return id < static_cast<int>(slot_of_.size()) && slot_of_[id] >= 0;
   }

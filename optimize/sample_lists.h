@@ -20,6 +20,14 @@ class SampleLists {
 
   int side(int sample) const { return links_[sample].side; }
 
+  /// \param new_side  of an old one that has samples
+  template <class F>
+  void renumber(int n_sides, F&& new_side) {
+    first_.assign(n_sides + 1, -1);
+    for (std::size_t s = 0; s < links_.size(); ++s)
+      link(static_cast<int>(s), new_side(links_[s].side));
+  }
+
   void move(int sample, int side) {
     if (links_[sample].side == side) return;
     const Link l = links_[sample];

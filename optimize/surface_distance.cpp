@@ -281,6 +281,28 @@ void SurfaceDistance::commit() {
   n_in_grid_ = 0;
 }
 
+void SurfaceDistance::renumber(const Renumbering& now) {
+  if (!side_undo_.empty() || !sample_undo_.empty())
+    throw InputError("sides were renumbered amid a change");
+  // There may have been more sides for a while, before a rollback.
+  const int n_old = 6 * static_cast<int>(now.cells.size());
+  const auto new_side = [&](int side) { return side < n_old ? now[HalfFaceHandle(side)].idx : -1; };
+  std::vector<double> forward;
+  std::vector<int> near;
+  for (std::size_t side = 0; side < forward_.size(); ++side) {
+    if (new_side(static_cast<int>(side)) < 0) continue;
+    forward.push_back(forward_[side]);
+    near.push_back(near_[side]);
+  }
+  forward_ = std::move(forward);
+  near_ = std::move(near);
+  nearest_side_.renumber(static_cast<int>(forward_.size()), new_side);
+  for (int& side : last_found_) side = new_side(side);
+  grid_.renumber(new_side);
+  of_vertices_.forget();
+  of_edges_.forget();
+}
+
 void SurfaceDistance::rollback() {
   for (std::size_t i = side_undo_.size(); i-- > 0;) {
     const SideUndo& undo = side_undo_[i];

@@ -71,6 +71,8 @@ class SurfaceDistance {
   const std::optional<Eigen::Vector3d>& too_far_at() const { return too_far_at_; }
   void commit();    ///< \throws InputError after a change that was given up
   void rollback();  ///< to the last commit; the mesh must be rolled back by its transaction
+  /// After HexMesh::collect_garbage(). \throws InputError unless all changes are committed
+  void renumber(const Renumbering& now);
 
   const ReferenceSurface& reference() const { return reference_; }
   const SurfaceDistanceOptions& options() const { return options_; }

@@ -28,6 +28,8 @@ HexMesh::HexMesh(const HexMesh& other)
       slot_next_(other.slot_next_),
       mate_(other.mate_),
       side_face_(other.side_face_),
+      vertex_serials_(other.vertex_serials_),
+      cell_serials_(other.cell_serials_),
       counts_(other.counts_) {
   if (!other.savepoints_.empty()) throw InputError("a mesh cannot be copied inside a transaction");
   const Registries& from = other.registries_;

@@ -5,7 +5,7 @@
 /// half-face it is glued to, its mate. Edges and faces have handles and properties of their own and
 /// live as long as a cell uses them. Storage is flat: vertex-to-cells, vertex-to-edges and
 /// edge-to-cells are linked lists threaded through arrays. Elements are deleted lazily; handles
-/// stay as they are until collect_garbage().
+/// stay as they are until collect_garbage(), which tells the new ones and keeps serial numbers.
 ///
 ///     HexMesh mesh = make_grid({4, 3, 2});
 ///     for (CellHandle c : mesh.cells())
@@ -24,11 +24,13 @@
 
 #include <Eigen/Core>
 
+#include "ovm/detail/serial_numbers.h"
 #include "ovm/handles.h"
 #include "ovm/hex_numbering.h"
 #include "ovm/journaled_array.h"
 #include "ovm/property.h"
 #include "ovm/ranges.h"
+#include "ovm/renumbering.h"
 
 namespace hexweft {
 
@@ -147,9 +149,14 @@ class HexMesh {
   void merge_vertices(std::span<const VertexMerge> merges);
   void reserve(int vertices, int cells);
 
-  /// Closes the gaps of deleted elements; all handles change, properties follow.
+  /// Closes the gaps of deleted elements; all handles change but for their order, properties follow.
+  /// \return the new handles
   /// \throws InputError inside a transaction
-  void collect_garbage();
+  Renumbering collect_garbage();
+  /// The index that the handle would have if no gap had ever been closed: it stays with the element, to
+  /// know it again by. Copies of the mesh have the same.
+  int serial(VertexHandle v) const { return vertex_serials_[v.idx]; }
+  int serial(CellHandle c) const { return cell_serials_[c.idx]; }
 
  private:
   friend class Transaction;
@@ -188,6 +195,7 @@ class HexMesh {
   JournaledArray<int> slot_next_;         // 12 per cell
   JournaledArray<HalfFaceHandle> mate_;   // 6 per cell
   JournaledArray<FaceHandle> side_face_;  // 6 per cell
+  detail::SerialNumbers vertex_serials_, cell_serials_;
   Counts counts_;
   std::vector<Counts> savepoints_;
   struct Registries {

@@ -278,13 +278,15 @@ void renumber(JournaledArray<int>& slots_held, const std::vector<int>& new_of_ol
 
 }  // namespace
 
-void HexMesh::collect_garbage() {
+Renumbering HexMesh::collect_garbage() {
   if (!savepoints_.empty()) throw InputError("garbage cannot be collected inside a transaction");
   const auto kept_v = live(vertices()), kept_e = live(edges());
   const auto kept_f = live(faces()), kept_c = live(cells());
-  const auto new_v = inverse(kept_v, vertex_slots()), new_e = inverse(kept_e, edge_slots());
-  const auto new_f = inverse(kept_f, face_slots()), new_c = inverse(kept_c, cell_slots());
+  Renumbering now = {inverse(kept_v, vertex_slots()), inverse(kept_e, edge_slots()),
+                     inverse(kept_f, face_slots()), inverse(kept_c, cell_slots())};
   const auto kept_half_e = times(kept_e, 2), kept_half_f = times(kept_c, 6);
+  vertex_serials_.keep(kept_v, vertex_slots());
+  cell_serials_.keep(kept_c, cell_slots());
 
   points_.keep(kept_v), vertex_live_.keep(kept_v);
   first_corner_.keep(kept_v), first_half_edge_.keep(kept_v);
@@ -294,23 +296,20 @@ void HexMesh::collect_garbage() {
   corner_next_.keep(times(kept_c, 8)), slot_next_.keep(times(kept_c, 12));
   mate_.keep(kept_half_f), side_face_.keep(kept_half_f);
 
-  renumber(first_corner_, new_c, 8), renumber(corner_next_, new_c, 8);
-  renumber(first_slot_, new_c, 12), renumber(slot_next_, new_c, 12);
-  renumber(first_half_edge_, new_e, 2), renumber(half_edge_next_, new_e, 2);
-  const auto side_of = [&](HalfFaceHandle hf) {
-    return HalfFaceHandle(hf.valid() ? 6 * new_c[hf.idx / 6] + hf.idx % 6 : -1);
-  };
+  renumber(first_corner_, now.cells, 8), renumber(corner_next_, now.cells, 8);
+  renumber(first_slot_, now.cells, 12), renumber(slot_next_, now.cells, 12);
+  renumber(first_half_edge_, now.edges, 2), renumber(half_edge_next_, now.edges, 2);
   for (int i = 0; i < mate_.size(); ++i) {
-    mate_.set(i, side_of(mate_[i]));
-    side_face_.set(i, FaceHandle(new_f[side_face_[i].idx]));
+    mate_.set(i, now[mate_[i]]);
+    side_face_.set(i, now[side_face_[i]]);
   }
-  for (int i = 0; i < face_side_.size(); ++i) face_side_.set(i, side_of(face_side_[i]));
+  for (int i = 0; i < face_side_.size(); ++i) face_side_.set(i, now[face_side_[i]]);
   for (int i = 0; i < edge_ends_.size(); ++i) {
-    for (VertexHandle& v : edge_ends_.at(i)) v = VertexHandle(new_v[v.idx]);
+    for (VertexHandle& v : edge_ends_.at(i)) v = now[v];
   }
   for (int i = 0; i < cell_vertices_.size(); ++i) {
-    for (VertexHandle& v : cell_vertices_.at(i)) v = VertexHandle(new_v[v.idx]);
-    for (EdgeHandle& e : cell_edges_.at(i)) e = EdgeHandle(new_e[e.idx]);
+    for (VertexHandle& v : cell_vertices_.at(i)) v = now[v];
+    for (EdgeHandle& e : cell_edges_.at(i)) e = now[e];
   }
   registries_.vertex->keep(kept_v);
   registries_.edge->keep(kept_e);
@@ -318,6 +317,7 @@ void HexMesh::collect_garbage() {
   registries_.face->keep(kept_f);
   registries_.half_face->keep(kept_half_f);
   registries_.cell->keep(kept_c);
+  return now;
 }
 
 }  // namespace hexweft

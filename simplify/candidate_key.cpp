@@ -64,9 +64,9 @@ CandidateKeys::CandidateKeys(const HexMesh& mesh, const BaseComplex& bc) {
   const std::vector<std::size_t> stars = hashes_of_stars(mesh);
   for (const Component& c : bc.components) {
     Hash itself, surroundings;
-    for (CellHandle cell : bc.cells(c)) itself.take(cell.idx);
+    for (CellHandle cell : bc.cells(c)) itself.take(mesh.serial(cell));
     for (VertexHandle v : bc.grid(c)) {
-      itself.take(v.idx);
+      itself.take(mesh.serial(v));
       surroundings.take(stars[v.idx]);
     }
     of_component_.push_back({itself.value(), surroundings.value()});

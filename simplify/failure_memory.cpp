@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "simplify/hash.h"
 
@@ -11,15 +12,15 @@ namespace {
 // What failed so often, each time after others had changed, is let go.
 constexpr int kMostTries = 3;
 
-std::size_t hash_of_group(const CollapsePlan& plan, int group) {
+std::size_t hash_of_group(const HexMesh& mesh, const CollapsePlan& plan, int group) {
   Hash h;
-  for (VertexHandle v : plan.group(group)) h.take(v.idx);
+  for (VertexHandle v : plan.group(group)) h.take(mesh.serial(v));
   return h.value();
 }
 
-std::vector<std::size_t> hashes_of_groups(const CollapsePlan& plan) {
+std::vector<std::size_t> hashes_of_groups(const HexMesh& mesh, const CollapsePlan& plan) {
   std::vector<std::size_t> hashes(plan.n_groups());
-  for (int g = 0; g < plan.n_groups(); ++g) hashes[g] = hash_of_group(plan, g);
+  for (int g = 0; g < plan.n_groups(); ++g) hashes[g] = hash_of_group(mesh, plan, g);
   std::sort(hashes.begin(), hashes.end());
   return hashes;
 }
@@ -66,7 +67,7 @@ void FailureMemory::failed_at(const HexMesh& mesh, const CollapsePlan& plan,
   if (cause.empty()) return;
   Cause c;
   for (int g : cause) {
-    c.groups.push_back(hash_of_group(plan, g));
+    c.groups.push_back(hash_of_group(mesh, plan, g));
     const auto members = plan.group(g);
     c.members.insert(c.members.end(), members.begin(), members.end());
   }
@@ -88,7 +89,7 @@ void FailureMemory::failed_at(const HexMesh& mesh, const CollapsePlan& plan,
 bool FailureMemory::has_cause(const HexMesh& mesh, const CollapsePlan& plan, int step,
                               bool patient) const {
   if (causes_.empty()) return false;
-  const std::vector<std::size_t> groups = hashes_of_groups(plan);
+  const std::vector<std::size_t> groups = hashes_of_groups(mesh, plan);
   const auto holds = [&](const Cause& c) {
     return !c.waiting.is_over(step, patient) &&
            std::includes(groups.begin(), groups.end(), c.groups.begin(), c.groups.end()) &&
@@ -115,6 +116,18 @@ Refusal FailureMemory::refusal_with(const Outlook& outlook) const {
     if (std::abs(it->second.least - outlook.least) <= kSame) return it->second.refusal;
   }
   return Refusal::none;
+}
+
+void FailureMemory::renumber(const Renumbering& now) {
+  const auto renumbered = [&](Cause& c) {
+    for (VertexHandle& v : c.members) v = now[v];
+    return std::all_of(c.members.begin(), c.members.end(),
+                       [](VertexHandle v) { return v.valid(); });
+  };
+  for (auto known = causes_.begin(); known != causes_.end();) {
+    std::erase_if(known->second, [&](Cause& c) { return !renumbered(c); });
+    known = known->second.empty() ? causes_.erase(known) : std::next(known);
+  }
 }
 
 void FailureMemory::forget_all() {

@@ -37,6 +37,8 @@ class FailureMemory {
   /// merge: where sheets were split beside it, its key has changed and its chances have not.
   Refusal refusal_with(const Outlook& outlook) const;
 
+  /// After HexMesh::collect_garbage(). What vertices that are gone had a part in cannot come again.
+  void renumber(const Renumbering& now);
   void forget_all();
 
  private:

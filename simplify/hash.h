@@ -1,5 +1,5 @@
 /// \file
-/// Hashes of what is made of handles, to know it again.
+/// Hashes of what is made of elements, to know it again, also when their handles have become others.
 #pragma once
 
 #include <cstddef>
@@ -28,11 +28,11 @@ constexpr std::size_t mixed(std::uint64_t h) {
   return h ^ h >> 31;
 }
 
-/// Of its handle and its vertices, mixed. An edit makes new cells or takes some away.
+/// Of itself and its vertices, mixed. An edit makes new cells or takes some away.
 inline std::size_t hash_of_cell(const HexMesh& mesh, CellHandle c) {
   Hash h;
-  h.take(c.idx);
-  for (VertexHandle v : mesh.vertices(c)) h.take(v.idx);
+  h.take(mesh.serial(c));
+  for (VertexHandle v : mesh.vertices(c)) h.take(mesh.serial(v));
   return mixed(h.value());
 }
 

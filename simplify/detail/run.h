@@ -162,6 +162,8 @@ class Run {
   void replace_mesh(const HexMesh& mesh);
   void forget_failures();
   void compact();
+  void close_gaps();
+  void tidy_up();
   SmoothingOptions smoothing_options() const;
   void smooth_all(SmoothingOptions options);
   bool is_smoothed() const { return smoothed_step_ == step_; }
@@ -193,7 +195,8 @@ class Run {
   bool made_room_ = false;   // by what is for nothing without a collapse: layers, splits, relaxing
   std::vector<SimplifyProgress> observed_;  // not told yet: the components are still to be counted
   bool in_round_ = false, last_round_failed_ = false;
-  int times_lost_ = 0;            // meshes that were not within the limit at full sampling
+  int slots_gone_ = 0;  // of cells, in gaps that were closed since failures were forgotten
+  int times_lost_ = 0;  // meshes that were not within the limit at full sampling
   bool may_be_given_up_ = false;  // what is done now, for a mesh that is better
   int failed_in_a_row_ = 0;  // trials that came as far as the geometry, since the last accepted one
   Clock::time_point last_checkpoint_;

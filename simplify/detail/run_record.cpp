@@ -157,6 +157,7 @@ void Run::replace_mesh(const HexMesh& mesh) {
   bc_ = extract_base_complex(mesh_);
   bc_of_this_mesh_ = true;
   distance_ = SurfaceDistance(mesh_, reference_, distance_.options());
+  slots_gone_ = 0;
   forget_failures();
 }
 
@@ -166,6 +167,30 @@ void Run::forget_failures() {
 }
 
 void Run::compact() { replace_mesh(mesh_); }
+
+// What is scattered takes longer to visit. What failed when most of the cells were others may succeed.
+void Run::tidy_up() {
+  constexpr double kMostSlots = 1.5, kMostMade = 4;  // for each cell that is there
+  const int made = mesh_.cell_slots() + slots_gone_;
+  if (made > kMostMade * mesh_.n_cells()) {
+    compact();
+  } else if (mesh_.cell_slots() > kMostSlots * mesh_.n_cells()) {
+    close_gaps();
+  }
+}
+
+// Handles change, and what is known goes on with the new ones.
+void Run::close_gaps() {
+  const auto extracting = timer(Stage::base_complex);
+  slots_gone_ += mesh_.cell_slots() - mesh_.n_cells();
+  const Renumbering now = mesh_.collect_garbage();
+  bc_ = extract_base_complex(mesh_);
+  context_.labels.reset();
+  distance_.renumber(now);
+  for (Manner* m : {&careful_, &ordinary_, &bold_}) m->memory.renumber(now);
+  for (EdgeHandle& e : not_refinable_) e = now[e];
+  std::erase_if(not_refinable_, [](EdgeHandle e) { return !e.valid(); });
+}
 
 // What collapses leave is poor in few places: passes over the whole mesh for its worst cells gain less
 // than they cost. A sharpened energy gains as much where the surface gives way less, and a nearer mesh

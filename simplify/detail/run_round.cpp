@@ -294,9 +294,9 @@ void Run::end(Round& round, const Tally& before, Manner& manner) {
   round.commit();
   bc_ = std::move(after);
   bc_of_this_mesh_ = true;
+  tidy_up();
   record();
   if (static_cast<double>(bc_.components.size()) <= kVerifyEvery * verified_.components) verify();
-  if (mesh_.cell_slots() > 4 * mesh_.n_cells()) compact();
 }
 
 // Of several the guilty one is not known: they are tried again one by one.

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "optimize/hausdorff.h"
+#include "ovm/edit/split_sheet.h"
+#include "ovm/errors.h"
 #include "ovm/transaction.h"
 #include "tests/optimize/test_meshes.h"
 
@@ -143,6 +145,37 @@ TEST(SurfaceDistance, FollowsCellsThatComeAndGo) {
     EXPECT_NEAR(kept.backward(), anew.backward(), kRounding);
   }
   EXPECT_NEAR(kept.distance(), 2, kRounding);  // the inner corner of the cavity
+}
+
+TEST(SurfaceDistance, GoesOnAfterCompactionAsBefore) {
+  HexMesh mesh = make_ball(6), scattered = mesh;
+  const auto reference = make_reference_surface(mesh);
+  SurfaceDistance d(mesh, reference), of_scattered(scattered, reference);
+  const auto change = [](HexMesh& m, unsigned seed) {
+    Random random(seed);
+    split_sheet(m, *std::next(m.edges().begin(), random.below(5)));
+    dent(m, random);
+  };
+  for (unsigned seed = 1; seed <= 4; ++seed) {
+    change(mesh, seed), change(scattered, seed);
+    d.after_change(mesh), of_scattered.after_change(scattered);
+    EXPECT_THROW(d.renumber({}), InputError) << "a change is open";
+    d.commit(), of_scattered.commit();
+    {  // sides that there are for a while
+      Transaction trial(mesh);
+      change(mesh, seed + 10);
+      d.after_change(mesh);
+      d.rollback();
+    }
+    d.renumber(mesh.collect_garbage());
+    EXPECT_EQ(d.forward(), of_scattered.forward());
+    EXPECT_EQ(d.backward(), of_scattered.backward());
+    const auto sides = mesh.boundary_halffaces(), same = scattered.boundary_halffaces();
+    ASSERT_EQ(sides.size(), same.size());
+    for (std::size_t i = 0; i < sides.size(); ++i)
+      EXPECT_EQ(d.distance_at(sides[i]), of_scattered.distance_at(same[i]));
+    EXPECT_EQ(d.after_change(mesh), 0);
+  }
 }
 
 TEST(SurfaceDistance, RollbackRestoresEverything) {

@@ -1,4 +1,6 @@
 // Edits and their rollback.
+#include <algorithm>
+#include <functional>
 #include <random>
 
 #include <gmock/gmock.h>
@@ -223,6 +225,89 @@ TEST_P(EveryMeshFamily, CompactionAfterEditsKeepsPropertiesWithTheirElements) {
   const MeshDump compact(mesh);
   mesh.collect_garbage();
   EXPECT_TRUE(MeshDump(mesh) == compact) << "compacting twice changes nothing";
+}
+
+template <class Range>
+auto all_of(const Range& range) {
+  return std::vector<typename Range::iterator::value_type>(range.begin(), range.end());
+}
+
+// Those of the slots that are live, in order, are the ones that there are then.
+template <class Handles>
+void expect_renumbered(const Renumbering& now, const Handles& before, int slots,
+                       const Handles& after) {
+  using H = typename Handles::value_type;
+  Handles renumbered;
+  for (int i = 0; i < slots; ++i) {
+    const bool live = std::binary_search(before.begin(), before.end(), H(i));
+    EXPECT_EQ(now[H(i)].valid(), live);
+    if (live) renumbered.push_back(now[H(i)]);
+  }
+  EXPECT_EQ(renumbered, after);
+  EXPECT_FALSE(now[H()].valid());
+}
+
+TEST_P(EveryMeshFamily, CompactionTellsTheNewHandles) {
+  HexMesh mesh = GetParam().make();
+  AllProperties properties(mesh);
+  RandomEditor editor(mesh, properties, 37);
+  for (int i = 0; i < 25; ++i) editor.edit();
+  const HexMesh old = mesh;
+  const Renumbering now = mesh.collect_garbage();
+  expect_renumbered(now, all_of(old.vertices()), old.vertex_slots(), all_of(mesh.vertices()));
+  expect_renumbered(now, all_of(old.edges()), old.edge_slots(), all_of(mesh.edges()));
+  expect_renumbered(now, all_of(old.faces()), old.face_slots(), all_of(mesh.faces()));
+  expect_renumbered(now, all_of(old.cells()), old.cell_slots(), all_of(mesh.cells()));
+  for (EdgeHandle e : old.edges()) {
+    const HalfEdgeHandle h(2 * e.idx + 1);
+    EXPECT_EQ(mesh.from(now[h]), now[old.from(h)]);
+  }
+  for (CellHandle c : old.cells()) {
+    for (HalfFaceHandle hf : old.halffaces(c)) {
+      EXPECT_EQ(mesh.cell(now[hf]), now[c]);
+      EXPECT_EQ(mesh.opposite(now[hf]), now[old.opposite(hf)]);
+      EXPECT_EQ(mesh.face(now[hf]), now[old.face(hf)]);
+    }
+  }
+  for (HalfFaceHandle gone(0); gone.idx < 6 * old.cell_slots(); ++gone.idx)
+    EXPECT_EQ(now[gone].valid(), old.is_live(CellHandle(gone.idx / 6)));
+}
+
+TEST_P(EveryMeshFamily, SerialNumbersStayWithTheirElements) {
+  HexMesh mesh = GetParam().make();
+  AllProperties properties(mesh);
+  RandomEditor editor(mesh, properties, 41);
+  VertexProperty<int> of_vertex(mesh, -1);
+  CellProperty<int> of_cell(mesh, -1);
+  int last_vertex = -1, last_cell = -1;
+  for (int round = 0; round < 5; ++round) {
+    for (int i = 0; i < 8; ++i) editor.edit();
+    std::vector<int> vertices, cells;
+    const int old_vertex = last_vertex, old_cell = last_cell;
+    const auto look_at = [](int serial, int& known, int& last, int old, std::vector<int>& all) {
+      // A new element may have taken over a property, but not the number.
+      if (serial <= old) EXPECT_EQ(known, serial);
+      known = serial;
+      last = std::max(last, serial);
+      all.push_back(serial);
+    };
+    for (VertexHandle v : mesh.vertices())
+      look_at(mesh.serial(v), of_vertex[v], last_vertex, old_vertex, vertices);
+    for (CellHandle c : mesh.cells())
+      look_at(mesh.serial(c), of_cell[c], last_cell, old_cell, cells);
+    EXPECT_TRUE(std::is_sorted(vertices.begin(), vertices.end(), std::less_equal()));
+    EXPECT_TRUE(std::is_sorted(cells.begin(), cells.end(), std::less_equal()));
+    mesh.collect_garbage();
+    const HexMesh copy = mesh;
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      EXPECT_EQ(mesh.serial(VertexHandle(static_cast<int>(i))), vertices[i]);
+      EXPECT_EQ(copy.serial(VertexHandle(static_cast<int>(i))), vertices[i]);
+    }
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      EXPECT_EQ(mesh.serial(CellHandle(static_cast<int>(i))), cells[i]);
+      EXPECT_EQ(copy.serial(CellHandle(static_cast<int>(i))), cells[i]);
+    }
+  }
 }
 
 TEST(Merge, FoldsASheetOfAGridAway) {

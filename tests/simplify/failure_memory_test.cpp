@@ -100,6 +100,53 @@ TEST_F(FailureMemoryTest, ACauseIsGoneWhenItsSurroundingsHaveChanged) {
   EXPECT_FALSE(memory.has_cause(mesh, longer, 1, true));
 }
 
+// Takes the first cell away and puts it back: a gap, and a cell that is new.
+void renew_first_cell(HexMesh& mesh) {
+  const CellHandle first = *mesh.cells().begin();
+  const CellVertices corners = mesh.vertices(first);
+  mesh.delete_cell(first);
+  mesh.add_cell(corners);
+}
+
+TEST_F(FailureMemoryTest, HoldsWhenHandlesHaveBecomeOthers) {
+  renew_first_cell(mesh);
+  bc = extract_base_complex(mesh);
+  const auto before = all_candidates(mesh, bc);
+  const CandidateKeys keys(mesh, bc);
+  for (std::size_t i = 0; i < before.size(); i += 2) {
+    memory.failed(keys.key(before[i].parts), Refusal::topology, 0);
+    memory.failed_at(mesh, before[i].plan, std::vector<int>{0}, 0);
+  }
+  std::vector<char> waits, has_cause;
+  for (const PlannedCandidate& c : before) {
+    waits.push_back(memory.should_wait(keys.key(c.parts), 1, true));
+    has_cause.push_back(memory.has_cause(mesh, c.plan, 1, true));
+  }
+  const Renumbering now = mesh.collect_garbage();
+  ASSERT_NE(now.cells.back(), static_cast<int>(now.cells.size()) - 1) << "nothing has moved";
+  memory.renumber(now);
+  bc = extract_base_complex(mesh);
+  const auto after = all_candidates(mesh, bc);
+  const CandidateKeys keys_after(mesh, bc);
+  ASSERT_EQ(after.size(), before.size());
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    EXPECT_EQ(memory.should_wait(keys_after.key(after[i].parts), 1, true), waits[i] != 0);
+    EXPECT_EQ(memory.has_cause(mesh, after[i].plan, 1, true), has_cause[i] != 0);
+  }
+  EXPECT_THAT(waits, testing::AllOf(testing::Contains(0), testing::Contains(1)));
+  EXPECT_THAT(has_cause, testing::Contains(1));
+}
+
+TEST_F(FailureMemoryTest, WhatIsGoneIsNoCauseAnyMore) {
+  const CollapsePlan& plan = plans[0];
+  memory.failed_at(mesh, plan, std::vector<int>{0}, 0);
+  ASSERT_TRUE(memory.has_cause(mesh, plan, 1, true));
+  Renumbering now = mesh.collect_garbage();
+  now.vertices[plan.group(0)[0].idx] = -1;
+  memory.renumber(now);
+  EXPECT_FALSE(memory.has_cause(mesh, plan, 1, true));
+}
+
 TEST_F(FailureMemoryTest, TheSameOutlookFailsByTheSame) {
   const Outlook outlook = {.distance_rel = 1.2, .least = -0.3};
   EXPECT_EQ(memory.refusal_with(outlook), Refusal::none);
