@@ -194,6 +194,18 @@ class Extractor {
 
   // -1 where the chain is cut differently from the other side.
   int base_edge(const Component& comp, int edge) {
+    const EdgeHandle first = edge_of_chain(comp, edge, 0);
+    const int known = bc_.base_edge_of_edge[first.idx];
+    if (known >= 0 && comp.n[edge_axis(edge)] == 1) return bc_.edges[known].n == 1 ? known : -1;
+    find_chain(comp, edge);
+    if (known < 0) return add_base_edge(comp, edge, first);
+    const auto old = bc_.chain(bc_.edges[known]);
+    const bool same = std::equal(chain_.begin(), chain_.end(), old.begin(), old.end()) ||
+                      std::equal(chain_.rbegin(), chain_.rend(), old.begin(), old.end());
+    return same ? known : -1;
+  }
+
+  void find_chain(const Component& comp, int edge) {
     const int axis = edge_axis(edge);
     const auto& x = kCornerCoords[kEdgeCorners[edge][0]];
     std::array<int, 3> at = {x[0] * comp.n[0], x[1] * comp.n[1], x[2] * comp.n[2]};
@@ -201,14 +213,6 @@ class Extractor {
     for (at[axis] = 0; at[axis] <= comp.n[axis]; ++at[axis]) {
       chain_.push_back(bc_.vertex(comp, at[0], at[1], at[2]));
     }
-    const EdgeHandle first = edge_of_chain(comp, edge, 0);
-    if (const int known = bc_.base_edge_of_edge[first.idx]; known >= 0) {
-      const auto old = bc_.chain(bc_.edges[known]);
-      const bool same = std::equal(chain_.begin(), chain_.end(), old.begin(), old.end()) ||
-                        std::equal(chain_.rbegin(), chain_.rend(), old.begin(), old.end());
-      return same ? known : -1;
-    }
-    return add_base_edge(comp, edge, first);
   }
 
   // Edge i of the chain along a component's edge.

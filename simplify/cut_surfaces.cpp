@@ -1,6 +1,7 @@
 #include "simplify/cut_surfaces.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace hexweft {
 namespace {
@@ -49,21 +50,25 @@ CutSurfaces::CutSurfaces(const HexMesh& mesh, SingularityGraph& graph)
 // Base edges run straight on from the seeds through regular vertices; surfaces start on all of
 // them.
 void CutSurfaces::trace(std::span<const EdgeHandle> seeds) {
-  std::vector<EdgeHandle> front;
+  std::vector<EdgeHandle> found;
   const auto add = [&](EdgeHandle e) {
     if (traced_[e.idx]) return;
     traced_[e.idx] = 1;
-    front.push_back(e);
+    found.push_back(e);
   };
   for (EdgeHandle e : seeds) add(e);
-  while (!front.empty()) {
-    const EdgeHandle e = front.back();
-    front.pop_back();
-    cut_at(e);
+  for (std::size_t next = 0; next < found.size(); ++next) {
+    const EdgeHandle e = found[next];
     for (VertexHandle v : mesh_.vertices(e)) {
       if (graph_.singular_vertex[v.idx] || on_singular_edge_[v.idx]) continue;
       if (const EdgeHandle on = straight_on(mesh_, e, v); on.valid()) add(on);
     }
+  }
+  // Where they are many, a pass over the cells takes less than going round every one of them.
+  if (static_cast<int>(found.size()) > mesh_.n_cells() / 2) {
+    cut_at_all_traced();
+  } else {
+    for (EdgeHandle e : found) cut_at(e);
   }
   spread();
 }
@@ -80,6 +85,23 @@ void CutSurfaces::cut_at(EdgeHandle e) {
   for (auto it = cells.begin(); it != cells.end(); ++it) {
     for (int s : kEdgeSides[it.slot() % 12]) {
       const HalfFaceHandle hf = mesh_.halfface(*it, s);
+      const FaceHandle f = mesh_.face(hf);
+      if (cut_[f.idx] || mesh_.is_boundary(hf)) continue;
+      cut_[f.idx] = 1;
+      front_.push_back(f);
+    }
+  }
+}
+
+void CutSurfaces::cut_at_all_traced() {
+  for (CellHandle c : mesh_.cells()) {
+    unsigned sides = 0;  // bits
+    const auto& edges = mesh_.edges(c);
+    for (int k = 0; k < kHexEdges; ++k) {
+      if (traced_[edges[k].idx]) sides |= 1u << kEdgeSides[k][0] | 1u << kEdgeSides[k][1];
+    }
+    for (; sides != 0; sides &= sides - 1) {
+      const HalfFaceHandle hf = mesh_.halfface(c, std::countr_zero(sides));
       const FaceHandle f = mesh_.face(hf);
       if (cut_[f.idx] || mesh_.is_boundary(hf)) continue;
       cut_[f.idx] = 1;

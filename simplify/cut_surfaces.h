@@ -26,6 +26,7 @@ class CutSurfaces {
  private:
   void trace(std::span<const EdgeHandle> seeds);
   void cut_at(EdgeHandle e);
+  void cut_at_all_traced();
   void spread();
   void add_nodes(const SingularCurve& curve);
   bool is_crossed(const SingularCurve& curve, int i) const;
