@@ -15,7 +15,6 @@ namespace hexweft {
 class KnownDistances {
  public:
   void begin_look() { ++look_; }
-  void forget() { known_.clear(); }
 
   /// The distance of point i, at p all through this look, or as soon as it is known to be at most
   /// `enough`, any number from it to `enough`.

@@ -299,8 +299,7 @@ void SurfaceDistance::renumber(const Renumbering& now) {
   nearest_side_.renumber(static_cast<int>(forward_.size()), new_side);
   for (int& side : last_found_) side = new_side(side);
   grid_.renumber(new_side);
-  of_vertices_.forget();
-  of_edges_.forget();
+  of_vertices_ = of_edges_ = {};
 }
 
 void SurfaceDistance::rollback() {

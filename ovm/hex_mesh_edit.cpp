@@ -270,10 +270,8 @@ std::vector<int> live(const Range& range) {
 
 // Renumbers slot indices (slots per element) held in an array.
 void renumber(JournaledArray<int>& slots_held, const std::vector<int>& new_of_old, int slots) {
-  for (int i = 0; i < slots_held.size(); ++i) {
-    const int s = slots_held[i];
-    if (s >= 0) slots_held.set(i, slots * new_of_old[s / slots] + s % slots);
-  }
+  for (int i = 0; i < slots_held.size(); ++i)
+    slots_held.set(i, detail::renumbered(new_of_old, slots_held[i], slots));
 }
 
 }  // namespace

@@ -74,22 +74,21 @@ void CutSurfaces::trace(std::span<const EdgeHandle> seeds) {
 }
 
 void CutSurfaces::cut(FaceHandle f) {
-  if (cut_[f.idx] || mesh_.is_boundary(f)) return;
+  begin_at(mesh_.halfface(f));
+  spread();
+}
+
+void CutSurfaces::begin_at(HalfFaceHandle hf) {
+  const FaceHandle f = mesh_.face(hf);
+  if (cut_[f.idx] || mesh_.is_boundary(hf)) return;
   cut_[f.idx] = 1;
   front_.push_back(f);
-  spread();
 }
 
 void CutSurfaces::cut_at(EdgeHandle e) {
   const auto cells = mesh_.cells(e);
   for (auto it = cells.begin(); it != cells.end(); ++it) {
-    for (int s : kEdgeSides[it.slot() % 12]) {
-      const HalfFaceHandle hf = mesh_.halfface(*it, s);
-      const FaceHandle f = mesh_.face(hf);
-      if (cut_[f.idx] || mesh_.is_boundary(hf)) continue;
-      cut_[f.idx] = 1;
-      front_.push_back(f);
-    }
+    for (int s : kEdgeSides[it.slot() % 12]) begin_at(mesh_.halfface(*it, s));
   }
 }
 
@@ -100,13 +99,7 @@ void CutSurfaces::cut_at_all_traced() {
     for (int k = 0; k < kHexEdges; ++k) {
       if (traced_[edges[k].idx]) sides |= 1u << kEdgeSides[k][0] | 1u << kEdgeSides[k][1];
     }
-    for (; sides != 0; sides &= sides - 1) {
-      const HalfFaceHandle hf = mesh_.halfface(c, std::countr_zero(sides));
-      const FaceHandle f = mesh_.face(hf);
-      if (cut_[f.idx] || mesh_.is_boundary(hf)) continue;
-      cut_[f.idx] = 1;
-      front_.push_back(f);
-    }
+    for (; sides != 0; sides &= sides - 1) begin_at(mesh_.halfface(c, std::countr_zero(sides)));
   }
 }
 

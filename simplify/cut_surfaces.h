@@ -25,6 +25,7 @@ class CutSurfaces {
 
  private:
   void trace(std::span<const EdgeHandle> seeds);
+  void begin_at(HalfFaceHandle hf);
   void cut_at(EdgeHandle e);
   void cut_at_all_traced();
   void spread();

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "simplify/hash.h"
 
@@ -119,15 +118,17 @@ Refusal FailureMemory::refusal_with(const Outlook& outlook) const {
 }
 
 void FailureMemory::renumber(const Renumbering& now) {
-  const auto renumbered = [&](Cause& c) {
-    for (VertexHandle& v : c.members) v = now[v];
-    return std::all_of(c.members.begin(), c.members.end(),
-                       [](VertexHandle v) { return v.valid(); });
+  const auto lost_a_member = [](const Cause& c) {
+    return std::any_of(c.members.begin(), c.members.end(),
+                       [](VertexHandle v) { return !v.valid(); });
   };
-  for (auto known = causes_.begin(); known != causes_.end();) {
-    std::erase_if(known->second, [&](Cause& c) { return !renumbered(c); });
-    known = known->second.empty() ? causes_.erase(known) : std::next(known);
+  for (auto& [group, causes] : causes_) {
+    for (Cause& c : causes) {
+      for (VertexHandle& v : c.members) v = now[v];
+    }
+    std::erase_if(causes, lost_a_member);
   }
+  std::erase_if(causes_, [](const auto& known) { return known.second.empty(); });
 }
 
 void FailureMemory::forget_all() {

@@ -64,6 +64,11 @@ struct AllProperties {
   CellProperty<std::string> cell;
 };
 
+template <class Range>
+auto listed(const Range& range) {
+  return std::vector<typename Range::iterator::value_type>(range.begin(), range.end());
+}
+
 // Seeded random edits, of every kind the kernel has.
 class RandomEditor {
  public:
@@ -100,7 +105,7 @@ class RandomEditor {
  private:
   template <class Range>
   typename Range::iterator::value_type some(const Range& range) {
-    std::vector<typename Range::iterator::value_type> all(range.begin(), range.end());
+    const auto all = listed(range);
     return all[random_() % all.size()];
   }
   void add_lone_cell() {
@@ -227,11 +232,6 @@ TEST_P(EveryMeshFamily, CompactionAfterEditsKeepsPropertiesWithTheirElements) {
   EXPECT_TRUE(MeshDump(mesh) == compact) << "compacting twice changes nothing";
 }
 
-template <class Range>
-auto all_of(const Range& range) {
-  return std::vector<typename Range::iterator::value_type>(range.begin(), range.end());
-}
-
 // Those of the slots that are live, in order, are the ones that there are then.
 template <class Handles>
 void expect_renumbered(const Renumbering& now, const Handles& before, int slots,
@@ -254,10 +254,10 @@ TEST_P(EveryMeshFamily, CompactionTellsTheNewHandles) {
   for (int i = 0; i < 25; ++i) editor.edit();
   const HexMesh old = mesh;
   const Renumbering now = mesh.collect_garbage();
-  expect_renumbered(now, all_of(old.vertices()), old.vertex_slots(), all_of(mesh.vertices()));
-  expect_renumbered(now, all_of(old.edges()), old.edge_slots(), all_of(mesh.edges()));
-  expect_renumbered(now, all_of(old.faces()), old.face_slots(), all_of(mesh.faces()));
-  expect_renumbered(now, all_of(old.cells()), old.cell_slots(), all_of(mesh.cells()));
+  expect_renumbered(now, listed(old.vertices()), old.vertex_slots(), listed(mesh.vertices()));
+  expect_renumbered(now, listed(old.edges()), old.edge_slots(), listed(mesh.edges()));
+  expect_renumbered(now, listed(old.faces()), old.face_slots(), listed(mesh.faces()));
+  expect_renumbered(now, listed(old.cells()), old.cell_slots(), listed(mesh.cells()));
   for (EdgeHandle e : old.edges()) {
     const HalfEdgeHandle h(2 * e.idx + 1);
     EXPECT_EQ(mesh.from(now[h]), now[old.from(h)]);
@@ -286,7 +286,9 @@ TEST_P(EveryMeshFamily, SerialNumbersStayWithTheirElements) {
     const int old_vertex = last_vertex, old_cell = last_cell;
     const auto look_at = [](int serial, int& known, int& last, int old, std::vector<int>& all) {
       // A new element may have taken over a property, but not the number.
-      if (serial <= old) EXPECT_EQ(known, serial);
+      if (serial <= old) {
+        EXPECT_EQ(known, serial);
+      }
       known = serial;
       last = std::max(last, serial);
       all.push_back(serial);

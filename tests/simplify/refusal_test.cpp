@@ -123,7 +123,9 @@ TEST(Refusal, TheLeastValenceHoldsOnBothDiagonalsOfAChord) {
           const auto [valence, is_boundary] = now;
           const auto old = before.find(ends);
           const bool fell = old != before.end() && valence < old->second.first;
-          if (fell && !is_boundary) EXPECT_GE(valence, limits.min_interior);
+          if (fell && !is_boundary) {
+            EXPECT_GE(valence, limits.min_interior);
+          }
         }
       }
     }
