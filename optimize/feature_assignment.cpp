@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <memory>
 #include <numeric>
 #include <queue>
@@ -19,6 +20,15 @@ namespace hexweft {
 namespace {
 
 constexpr double kReach = 0.75;  // of a vertex's mean edge length: how far its lines may be
+
+/// Whether the surface at a vertex of this normal can be that at the line: not across a gap or on the
+/// other side of a thin part. On one of two faces that meet at the line it can be, whatever the angle.
+bool faces_as(const Eigen::Vector3d& normal, const CurvePoint& on) {
+  constexpr double kShare = 0.4;    // of what a vertex on one of the faces has
+  constexpr double kFolded = 0.01;  // squared: two faces back to back have no side
+  const double face = on.facing.squaredNorm();
+  return face < kFolded || normal.isZero() || normal.dot(on.facing) > kShare * face;
+}
 
 /// A vertex a line is sure to pass through.
 struct Anchor {
@@ -37,9 +47,16 @@ class Assignment {
         graph_(points, quads),
         near_(points.cols()),
         near_line_(curves.n_lines()),
+        lines_at_corner_(curves.features().corners.size(), 0),
         vertex_of_corner_(curves.features().corners.size(), -1),
         reached_(points.cols()),
-        labels_(points.cols()) {}
+        labels_(points.cols()) {
+    for (int line = 0; line < curves.n_lines(); ++line) {
+      for (const int c : curves.ends(line)) {
+        if (c >= 0) ++lines_at_corner_[c];
+      }
+    }
+  }
 
   /// \param ids  what `known` knows the points by
   std::vector<FeatureLabel> run(std::span<const int> ids, NearLines& known);
@@ -52,6 +69,7 @@ class Assignment {
   };
 
   bool find_near_lines(std::span<const int> ids, NearLines& known);
+  std::vector<int> corners_near(int v) const;
   void claim_corners();
   const CurvePoint* near(int v, int line) const;
   bool follows(int v, int line) const;
@@ -70,11 +88,12 @@ class Assignment {
   int n_free_;
   const FeatureCurves& curves_;
   PatchGraph graph_;
-  std::vector<std::span<const CurvePoint>> near_;  // lines near each vertex
-  std::vector<std::vector<int>> near_line_;        // vertices near each line, ascending
-  std::vector<int> vertex_of_corner_;              // -1: not claimed
-  std::vector<Reached> reached_;                   // of a search; between searches as at the start
-  std::vector<int> touched_;                       // by a search
+  std::vector<std::vector<CurvePoint>> near_;  // lines near each vertex
+  std::vector<std::vector<int>> near_line_;    // vertices near each line, ascending
+  std::vector<int> lines_at_corner_;           // how many end there
+  std::vector<int> vertex_of_corner_;          // -1: not claimed
+  std::vector<Reached> reached_;               // of a search; between searches as at the start
+  std::vector<int> touched_;                   // by a search
   std::vector<FeatureLabel> labels_;
 };
 
@@ -83,7 +102,9 @@ bool Assignment::find_near_lines(std::span<const int> ids, NearLines& known) {
   bool any = false;
   for (int v = 0; v < points_.cols(); ++v) {
     if (graph_.mean_length(v) == 0) continue;
-    near_[v] = known.near(ids[v], points_.col(v), kReach * graph_.mean_length(v), curves_);
+    const auto lines = known.near(ids[v], points_.col(v), kReach * graph_.mean_length(v), curves_);
+    std::copy_if(lines.begin(), lines.end(), std::back_inserter(near_[v]),
+                 [&](const CurvePoint& c) { return faces_as(graph_.normal(v), c); });
     for (const CurvePoint& c : near_[v]) near_line_[c.line].push_back(v);
     any |= !near_[v].empty();
   }
@@ -96,16 +117,32 @@ const CurvePoint* Assignment::near(int v, int line) const {
   return at == near_[v].end() ? nullptr : std::to_address(at);
 }
 
+/// The corners within reach all of whose lines the vertex may lie on.
+std::vector<int> Assignment::corners_near(int v) const {
+  std::vector<int> ends;  // a corner within reach is an end of lines within it
+  for (const CurvePoint& on : near_[v]) {
+    for (const int c : curves_.ends(on.line)) {
+      if (c >= 0) ends.push_back(c);
+    }
+  }
+  std::sort(ends.begin(), ends.end());
+  std::vector<int> corners;
+  for (auto next = ends.begin(); next != ends.end();) {
+    const int c = *next;
+    const auto end = std::upper_bound(next, ends.end(), c);
+    if (end - next == lines_at_corner_[c]) corners.push_back(c);
+    next = end;
+  }
+  return corners;
+}
+
 /// Nearest pairs first, each corner and each vertex once.
 void Assignment::claim_corners() {
   std::vector<std::tuple<double, int, int>> pairs;  // distance, corner, vertex
   for (int v = 0; v < points_.cols(); ++v) {
-    for (const CurvePoint& on : near_[v]) {  // a corner within reach is an end of a line within it
-      for (const int c : curves_.ends(on.line)) {
-        if (c < 0) continue;
-        const double d = (curves_.corner(c) - points_.col(v)).norm();
-        if (d <= kReach * graph_.mean_length(v)) pairs.emplace_back(d, c, v);
-      }
+    for (const int c : corners_near(v)) {
+      const double d = (curves_.corner(c) - points_.col(v)).norm();
+      if (d <= kReach * graph_.mean_length(v)) pairs.emplace_back(d, c, v);
     }
   }
   std::sort(pairs.begin(), pairs.end());
@@ -129,7 +166,7 @@ bool Assignment::follows(int v, int line) const {
   return false;
 }
 
-/// On a closed line without enough of them: the vertices nearest to three points of it.
+/// On a line that comes round, without enough of them: the vertices nearest to three points of it.
 void Assignment::add_anchors_of_loop(int line, std::vector<Anchor>& anchors) const {
   for (int k = 0; k < 3; ++k) {
     const double arc = curves_.length(line) * k / 3;
@@ -163,7 +200,8 @@ std::vector<Anchor> Assignment::anchors(int line) const {
     const CurvePoint* on = near(*v, line);
     if (on->distance <= kOnLine * graph_.mean_length(*v)) result.push_back({on->at, *v});
   }
-  if (curves_.closed(line) && result.size() < 3) add_anchors_of_loop(line, result);
+  const auto [first, last] = curves_.ends(line);  // one and the same corner, or none
+  if (first == last && result.size() < 3) add_anchors_of_loop(line, result);
   std::sort(result.begin(), result.end());
   return result;
 }

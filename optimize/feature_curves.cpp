@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "ovm/detail/sort_unique.h"
@@ -27,6 +28,35 @@ struct Nearby {
   std::vector<int> lines = {};
 };
 
+using EdgeKey = std::pair<int, int>;  // ends, the lower one first
+
+EdgeKey edge_key(int a, int b) { return std::minmax(a, b); }
+
+// The triangles' mean normal at each edge of a line.
+std::map<EdgeKey, Eigen::Vector3d> mean_normals(const Eigen::Matrix3Xd& points,
+                                                const std::vector<std::array<int, 3>>& triangles,
+                                                const std::vector<FeatureLine>& lines) {
+  std::map<EdgeKey, Eigen::Vector4d> sums;  // of normals, and their count
+  for (const FeatureLine& line : lines) {
+    for (int i = 0; i < line.n_segments(); ++i) {
+      const auto [a, b] = line.segment(i);
+      sums.emplace(edge_key(a, b), Eigen::Vector4d::Zero());
+    }
+  }
+  if (sums.empty()) return {};
+  for (const auto& t : triangles) {
+    const Eigen::Vector3d a = points.col(t[0]), b = points.col(t[1]), c = points.col(t[2]);
+    const Eigen::Vector3d normal = (b - a).cross(c - a).stableNormalized();
+    for (int i = 0; i < 3; ++i) {
+      const auto edge = sums.find(edge_key(t[i], t[(i + 1) % 3]));
+      if (edge != sums.end()) edge->second += normal.homogeneous();
+    }
+  }
+  std::map<EdgeKey, Eigen::Vector3d> means;
+  for (const auto& [edge, sum] : sums) means[edge] = sum.head<3>() / std::max(sum[3], 1.0);
+  return means;
+}
+
 // The index of a point among the corners.
 int find_corner(const SurfaceFeatures& features, int point) {
   const auto at = std::lower_bound(features.corners.begin(), features.corners.end(), point);
@@ -36,8 +66,11 @@ int find_corner(const SurfaceFeatures& features, int point) {
 
 }  // namespace
 
-FeatureCurves::FeatureCurves(const Eigen::Matrix3Xd& points, SurfaceFeatures features)
+FeatureCurves::FeatureCurves(const Eigen::Matrix3Xd& points,
+                             const std::vector<std::array<int, 3>>& triangles,
+                             SurfaceFeatures features)
     : features_(std::move(features)) {
+  const auto facing = mean_normals(points, triangles, features_.lines);
   for (int v : features_.corners) corners_.emplace_back(points.col(v));
   std::vector<int> lines;  // of each box
   std::vector<Eigen::AlignedBox3d> boxes;
@@ -46,8 +79,9 @@ FeatureCurves::FeatureCurves(const Eigen::Matrix3Xd& points, SurfaceFeatures fea
     curve.points.emplace_back(points.col(line.points[0]));
     curve.arc.push_back(0);
     for (int i = 0; i < line.n_segments(); ++i) {
-      const Eigen::Vector3d from = points.col(line.segment(i)[0]),
-                            to = points.col(line.segment(i)[1]);
+      const auto [a, b] = line.segment(i);
+      const Eigen::Vector3d from = points.col(a), to = points.col(b);
+      curve.facing.push_back(facing.at(edge_key(a, b)));
       curve.points.push_back(to);
       curve.arc.push_back(curve.arc.back() + (to - from).norm());
       if (i % kStretch == 0) curve.boxes.emplace_back(from);
@@ -83,8 +117,12 @@ void FeatureCurves::look_at(int line, const Eigen::Vector3d& p, CurvePoint& best
       if (d > squared || (d == squared && best.line >= 0)) continue;
       squared = d;
       const double arc = curve.arc[i] + t * (curve.arc[i + 1] - curve.arc[i]);
-      best = {q, length2 > 0 ? Eigen::Vector3d(along.normalized()) : best.tangent, std::sqrt(d),
-              arc, line};
+      best = {q,
+              length2 > 0 ? Eigen::Vector3d(along.normalized()) : best.tangent,
+              std::sqrt(d),
+              arc,
+              line,
+              curve.facing[i]};
     }
   }
 }
@@ -127,7 +165,7 @@ CurvePoint FeatureCurves::at(int line, double arc) const {
   const double length = curve.arc[i] - curve.arc[i - 1];
   const double t = length > 0 ? (arc - curve.arc[i - 1]) / length : 0;
   const Eigen::Vector3d along = curve.points[i] - curve.points[i - 1];
-  return {curve.points[i - 1] + t * along, along.normalized(), 0, arc, line};
+  return {curve.points[i - 1] + t * along, along.normalized(), 0, arc, line, curve.facing[i - 1]};
 }
 
 }  // namespace hexweft

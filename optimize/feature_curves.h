@@ -21,14 +21,18 @@ struct CurvePoint {
   double distance = std::numeric_limits<double>::infinity();  ///< model units, from the query
   double at = 0;  ///< arc length from the line's first point, model units
   int line = -1;  ///< of equally close ones the lowest; -1 if there is none
+  /// Mean of the normals of the surface's triangles at the line there; zero where there are none.
+  Eigen::Vector3d facing = Eigen::Vector3d::Zero();
 };
 
 /// Stretches of a few segments have a box each, lines have one, and the stretches of all lines are in
 /// a tree: queries pass over what is too far. Const calls may run at the same time on several threads.
 class FeatureCurves {
  public:
-  /// \param points  3 × #points, model units
-  FeatureCurves(const Eigen::Matrix3Xd& points, SurfaceFeatures features);
+  /// \param points     3 × #points, model units
+  /// \param triangles  those that the features were found in
+  FeatureCurves(const Eigen::Matrix3Xd& points, const std::vector<std::array<int, 3>>& triangles,
+                SurfaceFeatures features);
 
   const SurfaceFeatures& features() const { return features_; }
   int n_lines() const { return static_cast<int>(features_.lines.size()); }
@@ -49,6 +53,7 @@ class FeatureCurves {
   struct Curve {
     std::vector<Eigen::Vector3d> points;     // #segments + 1; of a closed line the first again
     std::vector<double> arc;                 // at each of them
+    std::vector<Eigen::Vector3d> facing;     // of each segment
     std::vector<Eigen::AlignedBox3d> boxes;  // of a few segments each
     Eigen::AlignedBox3d box;
     std::array<int, 2> ends = {-1, -1};

@@ -49,9 +49,15 @@ Groups<Side> sides_at_vertices(int n_vertices, std::span<const std::array<int, 4
 }  // namespace
 
 PatchGraph::PatchGraph(const Eigen::Matrix3Xd& points, std::span<const std::array<int, 4>> quads)
-    : first_(points.cols() + 1, 0), mean_(points.cols(), 0) {
+    : first_(points.cols() + 1, 0),
+      mean_(points.cols(), 0),
+      normals_(points.cols(), Eigen::Vector3d::Zero()) {
   const double bent = std::cos(25 * std::numbers::pi / 180);
   const std::vector<Eigen::Vector3d> normals = normals_of(points, quads);
+  for (std::size_t i = 0; i < quads.size(); ++i) {
+    for (int v : quads[i]) normals_[v] += normals[i];
+  }
+  for (Eigen::Vector3d& n : normals_) n.normalize();
   Groups<Side> sides = sides_at_vertices(static_cast<int>(points.cols()), quads);
   for (int v = 0; v < points.cols(); ++v) {
     const std::span<Side> here = sides[v];

@@ -1,6 +1,9 @@
 // Feature lines found again as chains of mesh edges: finer, coarser, moved and thin meshes.
 #include "optimize/feature_assignment.h"
 
+#include <cmath>
+#include <numbers>
+
 #include <gtest/gtest.h>
 
 #include "ovm/dual.h"
@@ -74,6 +77,71 @@ TEST(FeatureAssignment, KeepsTheSidesOfAThinPlateApart) {
   EXPECT_EQ(count(exact).corners, 8);
   perturb(plate, 0.004, true, 5);
   EXPECT_EQ(feature_of(reference, plate), exact);
+}
+
+// Adds a copy of a part, turned about the z axis and then moved up along it.
+void add_turned(HexMesh& mesh, const HexMesh& part, double angle, double up) {
+  const Eigen::AngleAxisd turn(angle, Eigen::Vector3d::UnitZ());
+  std::vector<VertexHandle> copy(part.vertex_slots());
+  for (VertexHandle v : part.vertices())
+    copy[v.idx] = mesh.add_vertex(turn * part.point(v) + up * Eigen::Vector3d::UnitZ());
+  for (CellHandle c : part.cells()) {
+    CellVertices corners = part.vertices(c);
+    for (VertexHandle& v : corners) v = copy[v.idx];
+    mesh.add_cell(corners);
+  }
+}
+
+TEST(FeatureAssignment, KeepsPartsApartThatFaceEachOtherAcrossAGap) {
+  const HexMesh cylinder = make_o_grid({.n_core = 6, .n_layers = 6});
+  const double edge = 2 * std::numbers::pi / 24;
+  for (const double gap : {0.5 * edge, 0.2 * edge, 0.05 * edge}) {
+    HexMesh model, turned;  // the rims' vertices are nearest to those of the other part in `turned`
+    add_turned(model, cylinder, 0, 0);
+    add_turned(model, cylinder, 0, 2 + gap);
+    add_turned(turned, cylinder, edge / 24, 0);
+    add_turned(turned, cylinder, 0, 2 + gap);
+    const ReferenceSurface reference = make_reference_surface(model);
+    const auto labels = feature_of(reference, turned);
+    EXPECT_EQ(count(labels).lines, 4 * 24);
+    const double middle = turned.point(VertexHandle(0)).z() + 2 + gap / 2;
+    for (VertexHandle v : turned.vertices()) {
+      if (!labels[v.idx].is_line()) continue;
+      const double line_z = reference.curves().at(labels[v.idx].line, 0).point.z();
+      EXPECT_EQ(line_z > middle, turned.point(v).z() > middle);
+    }
+  }
+}
+
+TEST(FeatureAssignment, KeepsTheCornersOfStackedBoxesApart) {
+  const HexMesh box = make_grid({4, 4, 4}, kBox);
+  HexMesh stack;
+  add_turned(stack, box, 0, 0);
+  add_turned(stack, box, 0, 1.05);
+  const ReferenceSurface reference = make_reference_surface(stack);
+  const auto exact = feature_of(reference, stack);
+  EXPECT_EQ(count(exact).corners, 16);
+  EXPECT_EQ(count(exact).lines, 24 * 3);
+  for (unsigned seed : {1, 2, 3}) {
+    HexMesh moved = stack;
+    perturb(moved, 0.05, true, seed);
+    EXPECT_EQ(feature_of(reference, moved), exact) << seed;
+  }
+}
+
+// A cylinder drawn out to one sharp edge: its rims start and end at the same corner.
+TEST(FeatureAssignment, FollowsALineBackToTheCornerItStartsAt) {
+  HexMesh drop = make_o_grid({.n_core = 6, .n_ring = 3, .n_layers = 8});
+  for (VertexHandle v : drop.vertices()) {
+    const Eigen::Vector3d p = drop.point(v);
+    const double angle = std::abs(std::atan2(p.y(), p.x()));
+    const double out = 1 + 0.9 * std::max(0.0, 1 - angle / (std::numbers::pi / 3));
+    drop.set_point(v, {out * p.x(), out * p.y(), p.z()});
+  }
+  const ReferenceSurface reference = make_reference_surface(drop);
+  const Count n = count(feature_of(reference, drop));
+  EXPECT_EQ(n.corners, 2);
+  EXPECT_EQ(n.lines, 2 * 23 + 7);
 }
 
 TEST(FeatureAssignment, FindsNothingOnASmoothSurface) {
