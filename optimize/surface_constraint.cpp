@@ -25,7 +25,7 @@ struct RegionNormals {
       quad.col(i) = area.normalized();
       for (int v : q) vertex.col(v) += area;
     }
-    vertex.colwise().normalize();
+    for (auto n : vertex.colwise()) n.normalize();  // all at once would divide zeros
   }
   Eigen::Matrix3Xd quad, vertex;
 };

@@ -63,7 +63,8 @@ double SurfaceConstraint::move_to_goals(Region& region, const std::vector<Surfac
   for (std::size_t i = 0; i < goals.size(); ++i) start.col(i) = region.points.col(goals[i].vertex);
   const std::vector<double> before = scaled_jacobians(region.points, hexes_);
   std::vector<double> fraction(goals.size(), 1.0);
-  for (int round = 0; round <= kHalvings; ++round) {
+  // Each round from kHalvings on puts at least one vertex back for good, until nothing falls.
+  for (int round = 1;; ++round) {
     for (std::size_t i = 0; i < goals.size(); ++i) {
       region.points.col(goals[i].vertex) =
           (1 - fraction[i]) * start.col(i) + fraction[i] * goals[i].point;
@@ -74,7 +75,7 @@ double SurfaceConstraint::move_to_goals(Region& region, const std::vector<Surfac
     for (int i = 0; i < static_cast<int>(goals.size()); ++i) {
       const auto hexes = around_[i];
       if (fraction[i] == 0 || std::none_of(hexes.begin(), hexes.end(), falls)) continue;
-      fraction[i] = round + 1 >= kHalvings ? 0 : fraction[i] / 2;
+      fraction[i] = round >= kHalvings ? 0 : fraction[i] / 2;
       good = false;
     }
     if (good) break;

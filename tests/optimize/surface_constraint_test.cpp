@@ -7,6 +7,7 @@
 
 #include "optimize/hausdorff.h"
 #include "optimize/local_parametrization.h"
+#include "optimize/untangle.h"
 #include "tests/optimize/test_meshes.h"
 
 namespace hexweft {
@@ -128,6 +129,47 @@ TEST(SurfaceConstraint, AMoveEndsBeforeAHexahedronInverts) {
   const SurfaceConstraint constraint(region, reference);
   EXPECT_LT(constraint.move_to_goals(region, goals, 0.15), 1);
   for (double sj : scaled_jacobians(region.points, region.hexes)) EXPECT_GE(sj, 0.15);
+}
+
+// What one vertex that is put back does to its hexahedra puts back the next one.
+TEST(SurfaceConstraint, AMoveEndsBeforeAHexahedronInvertsHoweverManyHaveToStay) {
+  const HexMesh plate = make_grid({24, 24, 1});
+  std::vector<CellHandle> inner;
+  for (CellHandle c : plate.cells()) {
+    const int i = c.idx % 24, j = c.idx / 24;
+    if (i > 0 && i < 23 && j > 0 && j < 23) inner.push_back(c);
+  }
+  const ReferenceSurface reference = make_reference_surface(plate);
+  for (const double edges : {0.5, 0.9, 2.0, 5.0}) {
+    Region region = make_region(plate, inner);
+    std::vector<SurfaceGoal> goals;
+    for (int v : region.surface) {
+      goals.push_back({v, region.points.col(v) + Eigen::Vector3d(edges, 0.3 * edges, 0),
+                       Eigen::Matrix3d::Identity()});
+    }
+    const SurfaceConstraint constraint(region, reference);
+    constraint.move_to_goals(region, goals, 0);
+    for (double sj : scaled_jacobians(region.points, region.hexes)) ASSERT_GE(sj, 0) << edges;
+  }
+}
+
+// Where all quads at a vertex are flat it has no normal.
+TEST(SurfaceConstraint, GoalsAreFiniteWhereVerticesCoincide) {
+  HexMesh mesh = make_grid({6, 6, 6}, kBox);
+  for (VertexHandle v : mesh.vertices()) {
+    const Eigen::Vector3d p = mesh.point(v), from_middle = p - Eigen::Vector3d(0.5, 0.5, 1);
+    if (from_middle.lpNorm<Eigen::Infinity>() < 0.2) mesh.set_point(v, {0.5, 0.5, 1});
+  }
+  const ReferenceSurface reference = make_reference_surface(mesh);
+  for (const SurfaceTreatment treatment : {SurfaceTreatment::project, SurfaceTreatment::fit}) {
+    const Region region = make_region(mesh, all_cells(mesh));
+    for (const SurfaceGoal& g : surface_goals(region, reference, {.treatment = treatment}))
+      EXPECT_TRUE(g.point.allFinite());
+    HexMesh untangled = mesh;
+    ParametrizationOptions options;
+    options.surface.treatment = treatment;
+    EXPECT_EQ(untangle(untangled, reference, options), 0);
+  }
 }
 
 }  // namespace
