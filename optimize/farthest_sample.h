@@ -29,11 +29,18 @@ inline double covering_radius(const Eigen::Vector3d& p, const Eigen::Vector3d& q
   return std::sqrt(a * b * c / (4 * a * b - (a + b - c) * (a + b - c)));  // of the circumcircle
 }
 
-/// How large parts of a surface may be that are looked at for whether they keep a limit; all in model
-/// units.
+/// How closely a surface is looked at, in model units. Parts whose covering radius is over the
+/// resolution are divided further than they were asked for, unless nothing in them can be farther than
+/// what is faint: small distances need not be known as well.
+struct Closeness {
+  double resolution = std::numeric_limits<double>::infinity();
+  double faint = 0;
+};
+
+/// What it takes to tell whether a limit is kept.
 /// \param size  of the surface, which bounds the effort where the limit is very small
-inline double resolution_for(double limit, double size) {
-  return std::max(0.05 * limit, 2e-4 * size);
+inline Closeness closeness_for(double limit, double size) {
+  return {std::max(0.05 * limit, 2e-4 * size), std::max(0.5 * limit, 5e-4 * size)};
 }
 
 /// How far a point is, and the piece of the other surface that it was found to be so far from; -1 if
@@ -65,18 +72,16 @@ class FarthestSample {
   ///                  moves, but if it is at most `enough`, may be any number from it to `enough`
   /// \param at_least  below it distances are not told apart
   /// \param enough    beyond it the search is over
-  /// \param resolution  > 0: parts with a larger covering radius are divided further than they were
-  ///                    asked for, unless nothing in them can be farther than ten times that
   /// \param covers    (piece, three samples, d) → whether all of them are within d of a convex part of
   ///                  the piece that one of them was found to be near to
   FarthestSample(Distance distance, double at_least,
                  double enough = std::numeric_limits<double>::infinity(),
-                 double resolution = std::numeric_limits<double>::infinity(), Covers covers = {})
+                 const Closeness& closeness = {}, Covers covers = {})
       : distance_(std::move(distance)),
         covers_(std::move(covers)),
         farthest_(at_least),
         enough_(enough),
-        resolution_(resolution) {}
+        closeness_(closeness) {}
 
   bool done() const { return farthest_ > enough_; }
 
@@ -124,17 +129,17 @@ class FarthestSample {
            (c.piece != a.piece && c.piece != b.piece && by(c.piece));
   }
   bool is_coarse(const Sample& a, const Sample& b, const Sample& c) const {
-    constexpr double kFaint = 10;  // resolutions: small distances need not be known as well
     // Of the coordinates: what is smaller has no middle any more.
     constexpr double kRounding = 1e-14;
     const double r = radius(a, b, c), rounding = kRounding * a.point.cwiseAbs().maxCoeff();
-    return r > std::max(resolution_, rounding) &&
-           farthest_corner(a, b, c) + r > kFaint * resolution_;
+    return r > std::max(closeness_.resolution, rounding) &&
+           farthest_corner(a, b, c) + r > closeness_.faint;
   }
 
   Distance distance_;
   Covers covers_;
-  double farthest_, enough_, resolution_;
+  double farthest_, enough_;
+  Closeness closeness_;
   std::optional<Eigen::Vector3d> at_;
 };
 

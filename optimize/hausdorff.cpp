@@ -22,8 +22,8 @@ void check(const HausdorffOptions& o) {
   if (!(o.at_least >= 0)) {
     throw InputError("at_least = " + std::to_string(o.at_least) + ", expected >= 0");
   }
-  if (o.resolution && !(*o.resolution > 0)) {
-    throw InputError("resolution = " + std::to_string(*o.resolution) + ", expected > 0");
+  if (o.limit && !(*o.limit > 0)) {
+    throw InputError("limit = " + std::to_string(*o.limit) + ", expected > 0");
   }
   if (o.points_per_surface < 0) {
     throw InputError("points_per_surface = " + std::to_string(o.points_per_surface) +
@@ -31,8 +31,7 @@ void check(const HausdorffOptions& o) {
   }
 }
 
-/// Where no limit is asked for: that of the limit most have.
-double usual_resolution(double diagonal) { return resolution_for(0.01 * diagonal, diagonal); }
+constexpr double kUsualLimit = 0.01;  // of the diagonal, where none is asked for
 
 /// Its feature lines have no say in a distance.
 ReferenceSurface boundary_of(const HexMesh& mesh) {
@@ -53,8 +52,15 @@ bool is_within(const HexMesh& mesh, const ReferenceSurface& reference, double li
   HausdorffOptions o = options;
   o.at_least = 0.999 * limit;
   o.enough = limit;
-  if (!o.resolution) o.resolution = resolution_for(limit, reference.bounding_box_diagonal());
+  o.limit = limit;
   return hausdorff_distance(boundary_of(mesh), reference, o).distance() <= limit;
+}
+
+double hausdorff_ratio(const HexMesh& mesh, const ReferenceSurface& reference, double limit_rel,
+                       const HausdorffOptions& options) {
+  HausdorffOptions o = options;
+  o.limit = limit_rel * reference.bounding_box_diagonal();
+  return hausdorff_distance(mesh, reference, o).ratio();
 }
 
 FarthestPoint farthest_point(const ReferenceSurface& from, const ReferenceSurface& to,
@@ -74,8 +80,9 @@ FarthestPoint farthest_point(const ReferenceSurface& from, const ReferenceSurfac
           ? options.points_per_surface
           : static_cast<double>(options.points_per_triangle) *
                 static_cast<double>(std::max(triangles.size(), to.triangles().size()));
+  const double diagonal = to.bounding_box_diagonal();
   FarthestSample farthest(DistanceTo(to), options.at_least, options.enough,
-                          options.resolution.value_or(usual_resolution(to.bounding_box_diagonal())),
+                          closeness_for(options.limit.value_or(kUsualLimit * diagonal), diagonal),
                           CoveredByTriangle{to});
   SharedCorners corners(farthest, points);
   for (const auto& t : triangles) {

@@ -22,9 +22,10 @@ struct HausdorffOptions {
   int points_per_triangle = 10;  ///< > 0, at least so many on every triangle
   int points_per_surface =
       0;  ///< ≥ 0, spread by area; 0: points_per_triangle × the larger triangle count
-  /// > 0, model units: how large parts may be, as FarthestSample; unset: resolution_for() a limit of a
-  /// hundredth of the diagonal of the second surface's bounding box (farthest_sample.h)
-  std::optional<double> resolution = {};
+  /// > 0, model units: what the distance is to be held against. It is told to a twentieth of that, as
+  /// far as it is over half of it: parts of a surface are divided as closeness_for() the limit says
+  /// (farthest_sample.h). Unset: a hundredth of the diagonal of the second surface's bounding box
+  std::optional<double> limit = {};
   bool parallel = false;  ///< the two directions on a thread each; the result is the same
   double at_least =
       0;  ///< ≥ 0, model units: below it distances are not told apart, which saves time
@@ -59,6 +60,11 @@ HausdorffDistance hausdorff_distance(const ReferenceSurface& surface,
 /// The boundary of a mesh against a reference.
 HausdorffDistance hausdorff_distance(const HexMesh& mesh, const ReferenceSurface& reference,
                                      const HausdorffOptions& options = {});
+
+/// The ratio of that distance, looked for as closely as is_within() does for a limit.
+/// \param limit_rel  > 0, of the diagonal of the reference's bounding box
+double hausdorff_ratio(const HexMesh& mesh, const ReferenceSurface& reference, double limit_rel,
+                       const HausdorffOptions& options = {});
 
 /// Whether the boundary of a mesh and the reference are within `limit` of each other, in model units,
 /// on the samples of hausdorff_distance(); much faster than that where they are.

@@ -239,6 +239,11 @@ SmoothingReport Smoother::run() {
   return report_;
 }
 
+double measured(const HexMesh& mesh, const ReferenceSurface& reference,
+                const SmoothingOptions& options) {
+  return hausdorff_ratio(mesh, reference, options.hausdorff_limit_rel);
+}
+
 /// One cycle. \param before  Hausdorff ratio at the start of the first, or what it is not over
 /// \param gains  of the cycles before; this one's are added
 /// \return nothing, with the mesh as it was, if all that it tried ended over the limit
@@ -251,13 +256,13 @@ std::optional<SmoothingReport> run_cycle(HexMesh& mesh, const ReferenceSurface& 
   for (double room : {1.0, 0.9, 0.6}) {
     gains = earlier;
     if (room < 1 && options.initial_hausdorff_rel)
-      before = std::min(before, hausdorff_distance(mesh, reference).ratio());
+      before = std::min(before, measured(mesh, reference, options));
     Transaction attempt(mesh);
     const double limit = std::max(before, room * options.hausdorff_limit_rel);
     SmoothingReport report =
         Smoother(mesh, reference, options, limit * reference.bounding_box_diagonal(), gains).run();
     report.initial_hausdorff_rel = before;
-    report.hausdorff_rel = hausdorff_distance(mesh, reference).ratio();
+    report.hausdorff_rel = measured(mesh, reference, options);
     if (report.hausdorff_rel > std::max(before, options.hausdorff_limit_rel)) continue;
     attempt.commit();
     return report;
@@ -308,8 +313,8 @@ SmoothingReport smooth(HexMesh& mesh, const ReferenceSurface& reference,
                        const SmoothingOptions& options) {
   validate(options);
   if (mesh.n_cells() == 0) return {};
-  const auto measured = [&] { return hausdorff_distance(mesh, reference).ratio(); };
-  const double before = options.initial_hausdorff_rel ? *options.initial_hausdorff_rel : measured();
+  const double before = options.initial_hausdorff_rel ? *options.initial_hausdorff_rel
+                                                      : measured(mesh, reference, options);
   const Quality start = measure_quality(mesh, all_cells(mesh));
   SmoothingReport report;
   report.initial_min_scaled_jacobian = report.min_scaled_jacobian = start.least;
@@ -324,7 +329,8 @@ SmoothingReport smooth(HexMesh& mesh, const ReferenceSurface& reference,
     report = both(report, *next);
     if (!gained(*next)) break;
   }
-  if (!any && options.initial_hausdorff_rel) report.hausdorff_rel = measured();
+  if (!any && options.initial_hausdorff_rel)
+    report.hausdorff_rel = measured(mesh, reference, options);
   return report;
 }
 

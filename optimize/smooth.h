@@ -33,8 +33,8 @@ void validate(const SmoothingOptions& options);  ///< \throws InputError
 struct SmoothingReport {
   double initial_min_scaled_jacobian = 1, min_scaled_jacobian = 1;
   double initial_mean_scaled_jacobian = 1, mean_scaled_jacobian = 1;
-  double initial_hausdorff_rel = 0;  ///< of hausdorff_distance(), or as it was given
-  double hausdorff_rel = 0;          ///< of hausdorff_distance()
+  double initial_hausdorff_rel = 0;  ///< hausdorff_ratio() for the limit, or as it was given
+  double hausdorff_rel = 0;          ///< hausdorff_ratio() for the limit
   int accepted_global = 0, accepted_local = 0, trials = 0;
 };
 

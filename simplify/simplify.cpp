@@ -52,7 +52,7 @@ void untangle_input(HexMesh& mesh, const ReferenceSurface& reference,
   const int left = untangle(mesh, reference, options.parametrization);
   if (left > 0)
     throw InputError(fmt::format("{}, of which {} cannot be untangled", inverted, left));
-  const double ratio = hausdorff_distance(mesh, reference).ratio();
+  const double ratio = hausdorff_ratio(mesh, reference, options.hausdorff_limit_rel);
   if (ratio > options.hausdorff_limit_rel) {
     throw InputError(
         fmt::format("{}; untangled it is {:.4g} of its diagonal off its surface, "

@@ -167,6 +167,7 @@ class Run {
   SmoothingOptions smoothing_options() const;
   void smooth_all(SmoothingOptions options);
   bool is_smoothed() const { return smoothed_step_ == step_; }
+  double measured_ratio() const;
   void measure_output();
   StageTimer timer(Stage stage) { return {&clock_, stage}; }
   template <typename Work>

@@ -50,7 +50,6 @@ void Run::go_on_from(const Checkpoint& from) {
   replace_mesh(from.mesh);
   step_ = s.step;
   made_room_ = true;
-  failed_in_a_row_ = s.failed_in_a_row;
   context_.distance_limit = s.distance_share * context_.final_limit;
   aim_at(s.target_cells);
   report_.sheets = s.sheets;
@@ -65,7 +64,7 @@ void Run::go_on_from(const Checkpoint& from) {
   if (report_.collapses() == 0 || !may_be_written()) return;
   if (s.smoothed) {
     smoothed_step_ = step_;
-    report_.hausdorff_ratio = hausdorff_distance(mesh_, reference_).ratio();
+    report_.hausdorff_ratio = measured_ratio();
   }
   take_as_verified();
 }
@@ -73,7 +72,6 @@ void Run::go_on_from(const Checkpoint& from) {
 RunState Run::state() {
   RunState s;
   s.step = step_;
-  s.failed_in_a_row = failed_in_a_row_;
   s.smoothed = is_smoothed();
   s.distance_share = context_.distance_limit / context_.final_limit;
   s.target_cells = target_cells_;
@@ -218,11 +216,14 @@ void Run::smooth_all(SmoothingOptions options) {
   if (cut.stop_requested()) is_cut_short();  // notes down why
 }
 
+double Run::measured_ratio() const {
+  return hausdorff_ratio(mesh_, reference_, options_.hausdorff_limit_rel,
+                         {.parallel = options_.threads > 1});
+}
+
 void Run::measure_output() {
   const auto measuring = timer(Stage::verification);
-  if (!is_smoothed())
-    report_.hausdorff_ratio =
-        hausdorff_distance(mesh_, reference_, {.parallel = options_.threads > 1}).ratio();
+  if (!is_smoothed()) report_.hausdorff_ratio = measured_ratio();
   mesh_.collect_garbage();
   report_.after = measure_mesh(mesh_);
   report_.seconds = earlier_seconds_ + seconds();

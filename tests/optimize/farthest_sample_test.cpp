@@ -112,7 +112,7 @@ TEST(FarthestSample, DividesLargePartsUntilNothingIsMissed) {
     int looks = 0;
     FarthestSample farthest(
         [&](const Eigen::Vector3d& x, double enough) { return ++looks, tent(x, enough); }, 0,
-        std::numeric_limits<double>::infinity(), kResolution);
+        std::numeric_limits<double>::infinity(), Closeness{kResolution, kWidth / 2});
     farthest.look_at(farthest.look_at(t[0]), farthest.look_at(t[1]), farthest.look_at(t[2]), 2);
     EXPECT_GE(farthest.distance(), kWidth - kResolution);
     EXPECT_LE(farthest.distance(), kWidth);
@@ -144,11 +144,11 @@ TEST(FarthestSample, PassesOverWhatOneTriangleCovers) {
                        kLevels);
       return farthest.done();
     };
-    constexpr double kResolution = 0.05 * kLimit;
-    const bool with = is_beyond(FarthestSample(counting(looks_with), kLimit, kLimit, kResolution,
+    const Closeness closeness = closeness_for(kLimit, 1);
+    const bool with = is_beyond(FarthestSample(counting(looks_with), kLimit, kLimit, closeness,
                                                CoveredByTriangle{surface}));
     const bool without =
-        is_beyond(FarthestSample(counting(looks_without), kLimit, kLimit, kResolution));
+        is_beyond(FarthestSample(counting(looks_without), kLimit, kLimit, closeness));
     EXPECT_EQ(with, without) << i;
     beyond += without;
   }
@@ -166,7 +166,7 @@ TEST(FarthestSample, EndsWhereCoordinatesHaveNoMoreDigits) {
         ++looks;
         return FoundDistance{1};
       },
-      0, std::numeric_limits<double>::infinity(), 1e-3);
+      0, std::numeric_limits<double>::infinity(), Closeness{1e-3});
   const Sample a = farthest.look_at(far), b = farthest.look_at(far + Eigen::Vector3d(1, 0, 0)),
                c = farthest.look_at(far + Eigen::Vector3d(0, 1, 0));
   farthest.look_at(a, b, c, 2);

@@ -1,7 +1,9 @@
 // Distances that are known exactly.
 #include "optimize/hausdorff.h"
 
+#include <array>
 #include <cmath>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -24,11 +26,49 @@ TEST(HausdorffDistance, OfNestedCubesIsTheirGapAndItsSpaceDiagonal) {
   const auto inner = make_reference_surface(box(0, 1, 3)),
              outer = make_reference_surface(box(-0.1, 1.1, 4));
   // Everywhere about as far: nothing can be passed over.
-  const auto d = hausdorff_distance(inner, outer, {.resolution = 0.01});
+  const auto d = hausdorff_distance(inner, outer, {.limit = 0.2});
   EXPECT_NEAR(d.forward, 0.1, 1e-12);
   EXPECT_NEAR(d.backward, 0.1 * std::sqrt(3), 1e-12);
   EXPECT_NEAR(d.ratio(), 0.1 / 1.2, 1e-12);
-  EXPECT_NEAR(hausdorff_distance(outer, inner, {.resolution = 0.01}).forward, d.backward, 1e-15);
+  EXPECT_NEAR(hausdorff_distance(outer, inner, {.limit = 0.2}).forward, d.backward, 1e-15);
+}
+
+TEST(HausdorffDistance, IsTheSameInAnyUnitOfLength) {
+  const HexMesh ball = make_ball(4), finer = make_ball(7);
+  const auto ratio = [&](double unit) {
+    HexMesh a = ball, b = finer;
+    for (HexMesh* mesh : {&a, &b}) {
+      for (VertexHandle v : mesh->vertices()) mesh->set_point(v, unit * mesh->point(v));
+    }
+    return hausdorff_distance(a, make_reference_surface(b)).ratio();
+  };
+  for (const int power : {-140, -60, 60, 140}) EXPECT_EQ(ratio(std::ldexp(1, power)), ratio(1));
+}
+
+// A plate of four by four squares a side, and the same plate of larger triangles round a small hole in
+// its top: what is farthest is the middle of a square.
+TEST(HausdorffDistance, IsLookedForAsCloselyAsTheLimitIsSmall) {
+  const HexMesh plate = make_grid(
+      {4, 4, 1}, Eigen::AlignedBox3d(Eigen::Vector3d(0, 0, -0.2), Eigen::Vector3d(1, 1, 0)));
+  const double w = 0.002, x = 0.43, y = 0.29;
+  Eigen::Matrix3Xd points(3, 12);
+  points << 0, 1, 1, 0, 0, 1, 1, 0, x - w, x + w, x + w, x - w,  //
+      0, 0, 1, 1, 0, 0, 1, 1, y - w, y - w, y + w, y + w,        //
+      0, 0, 0, 0, -0.2, -0.2, -0.2, -0.2, 0, 0, 0, 0;
+  std::vector<std::array<int, 3>> triangles;
+  const auto add = [&](int a, int b, int c, int d) {
+    triangles.push_back({a, b, c});
+    triangles.push_back({c, d, a});
+  };
+  add(7, 6, 5, 4);
+  for (int i = 0, j = 1; i < 4; ++i, j = (i + 1) % 4) {
+    add(i, j, 8 + j, 8 + i);
+    add(4 + i, 4 + j, j, i);
+  }
+  const ReferenceSurface holed(points, triangles);
+  const double exact = w / holed.bounding_box_diagonal();
+  EXPECT_NEAR(hausdorff_ratio(plate, holed, exact), exact, 0.1 * exact);
+  EXPECT_FALSE(is_within(plate, holed, 0.8 * w));
 }
 
 TEST(HausdorffDistance, FindsASpikeFromOneSideOnly) {
@@ -102,7 +142,7 @@ TEST(HausdorffDistance, RefusesBadOptions) {
   const auto s = make_reference_surface(box(0, 1, 1));
   EXPECT_THROW(farthest_point(s, s, {.points_per_triangle = 0}), InputError);
   EXPECT_THROW(farthest_point(s, s, {.points_per_surface = -1}), InputError);
-  EXPECT_THROW(farthest_point(s, s, {.resolution = 0}), InputError);
+  EXPECT_THROW(farthest_point(s, s, {.limit = 0}), InputError);
 }
 
 }  // namespace
