@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <new>
 #include <numbers>
 #include <sstream>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -26,18 +29,27 @@ class TriangleIndex {
  public:
   TriangleIndex(const Eigen::Matrix3Xd& points, const std::vector<std::array<int, 3>>& triangles,
                 const Eigen::Vector3d& centre, double size);
-  TriangleIndex(const TriangleIndex&) = delete;
-  TriangleIndex& operator=(const TriangleIndex&) = delete;
-  ~TriangleIndex() {
-    rtcReleaseScene(scene_);
-    rtcReleaseDevice(device_);
-  }
-  RTCScene scene() const { return scene_; }
+  RTCScene scene() const { return scene_.get(); }
 
  private:
-  RTCDevice device_;
-  RTCScene scene_;
+  struct Release {
+    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+    void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+  };
+  template <class Handle>
+  using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Release>;
+
+  Owned<RTCDevice> device_;
+  Owned<RTCScene> scene_;
 };
+
+/// \param device  may be null, if there is none for the error
+void expect_no_error(RTCDevice device) {
+  const RTCError error = rtcGetDeviceError(device);
+  if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
+  if (error != RTC_ERROR_NONE)
+    throw SolverError("Embree failed with error " + std::to_string(error));
+}
 
 void check(const Eigen::Matrix3Xd& points, const std::vector<std::array<int, 3>>& triangles) {
   if (triangles.empty()) throw InputError("the reference surface has no triangles");
@@ -52,9 +64,9 @@ void check(const Eigen::Matrix3Xd& points, const std::vector<std::array<int, 3>>
   }
 }
 
-/// Fourth powers of distances must neither vanish nor overflow.
+/// Sixth powers of distances must neither vanish nor overflow.
 double check_size(double diagonal) {
-  constexpr double kLeast = 1e-60, kMost = 1e60;
+  constexpr double kLeast = 1e-45, kMost = 1e45;
   if (diagonal >= kLeast && diagonal <= kMost) return diagonal;
   std::ostringstream message;
   message << "the diagonal of the reference surface's bounding box is " << diagonal << ", expected "
@@ -65,7 +77,8 @@ double check_size(double diagonal) {
 TriangleIndex::TriangleIndex(const Eigen::Matrix3Xd& points,
                              const std::vector<std::array<int, 3>>& triangles,
                              const Eigen::Vector3d& centre, double size)
-    : device_(rtcNewDevice("threads=1")), scene_(rtcNewScene(device_)) {
+    : device_(rtcNewDevice(nullptr)), scene_(rtcNewScene(device_.get())) {
+  expect_no_error(device_.get());
   std::vector<RTCBounds> boxes;  // read by the commit only
   boxes.reserve(triangles.size());
   for (const auto& t : triangles) {
@@ -76,7 +89,7 @@ TriangleIndex::TriangleIndex(const Eigen::Matrix3Xd& points,
     const Eigen::Vector3f upper = ((box.upper - centre) / size).cast<float>();
     boxes.push_back({lower[0], lower[1], lower[2], 0, upper[0], upper[1], upper[2], 0});
   }
-  RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_USER);
+  RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_USER);
   rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(boxes.size()));
   rtcSetGeometryUserData(geometry, boxes.data());
   rtcSetGeometryBoundsFunction(
@@ -86,10 +99,11 @@ TriangleIndex::TriangleIndex(const Eigen::Matrix3Xd& points,
       },
       nullptr);
   rtcCommitGeometry(geometry);
-  rtcAttachGeometry(scene_, geometry);
+  rtcAttachGeometry(scene(), geometry);
   rtcReleaseGeometry(geometry);
-  rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_MEDIUM);
-  rtcCommitScene(scene_);
+  rtcSetSceneBuildQuality(scene(), RTC_BUILD_QUALITY_MEDIUM);
+  rtcCommitScene(scene());
+  expect_no_error(device_.get());
 }
 
 /// What a query reads of a triangle, in one place and in that order.
@@ -150,7 +164,7 @@ struct ReferenceSurface::Impl {
         mesh(make_triangle_mesh(points, triangles, first_vertex)),
         normals(corner_normals(mesh, first_vertex, feature_angle_deg)),
         index(points, triangles, centre, diagonal),
-        curves(points, find_features(points, triangles, features)) {
+        curves(points, triangles, find_features(points, triangles, features)) {
     make_facets(feature_angle_deg);
   }
 

@@ -42,7 +42,7 @@ class ReferenceSurface {
   /// \param feature_angle_deg  (0, 180]: normals are not averaged across edges sharper than this
   /// \param features  which lines and corners to look for
   /// \throws InputError  without triangles, on a bad index, a coordinate that is not finite, or a
-  ///                     bounding box whose diagonal is outside of [1e-60, 1e60]
+  ///                     bounding box whose diagonal is outside of [1e-45, 1e45]
   ReferenceSurface(Eigen::Matrix3Xd points, std::vector<std::array<int, 3>> triangles,
                    double feature_angle_deg = kNormalAngleDeg, const FeatureOptions& features = {});
 
