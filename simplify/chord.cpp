@@ -51,29 +51,36 @@ class ChordWalker {
              (next == link.component && side == 2 * link.axis + end)) {
         ++side;
       }
-      const ChordLink entered{next, side_axis(side),
-                              turned(link, 2 * link.axis + end, {next, side_axis(side)}, side)};
-      link = entered;
+      link = follow(link, 2 * link.axis + end, next, side);
       end = 1 - side % 2;
       if (link.component == start.component && link.axis == start.axis) {
         chord.twisted = link.turned != start.turned;
+        chord.group_at_end = link.group;
         return false;
       }
     }
   }
 
-  // Base vertices of the diagonal of a side that parallel edges 0 and 3 (or 1 and 2) end on.
-  std::array<int, 2> diagonal_on(const ChordLink& l, int side, bool other) const {
-    const Component& c = bc_.components[l.component];
-    const auto at = [&](int i) { return c.corners[kEdgeCorners[4 * l.axis + i][side % 2]]; };
-    return other ? std::array{at(1), at(2)} : std::array{at(0), at(3)};
+  // The base vertices that the four edges along a chord end on at a side.
+  std::array<int, 4> ends_on(int component, int side) const {
+    const Component& c = bc_.components[component];
+    std::array<int, 4> ends;
+    for (int i = 0; i < 4; ++i)
+      ends[i] = c.corners[kEdgeCorners[4 * side_axis(side) + i][side % 2]];
+    return ends;
   }
 
-  bool turned(const ChordLink& from, int from_side, const ChordLink& to, int to_side) const {
-    auto a = diagonal_on(from, from_side, from.turned), b = diagonal_on(to, to_side, false);
-    std::sort(a.begin(), a.end());
-    std::sort(b.begin(), b.end());
-    return a != b;
+  // The link that a chord goes on to through a side of the last one, which is a side of the next.
+  ChordLink follow(const ChordLink& from, int from_side, int component, int side) const {
+    const std::array<int, 4> before = ends_on(from.component, from_side),
+                             after = ends_on(component, side);
+    ChordLink to{component, side_axis(side)};
+    for (int i = 0; i < 4; ++i) {
+      const auto same = std::find(before.begin(), before.end(), after[i]);
+      to.group[i] = from.group[same - before.begin()];
+    }
+    to.turned = to.group[0] == 1 || to.group[0] == 2;
+    return to;
   }
 
   const BaseComplex& bc_;

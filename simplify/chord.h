@@ -2,6 +2,7 @@
 /// Base-complex chords: columns of components through opposite base faces.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "simplify/base_complex.h"
@@ -16,6 +17,9 @@ struct ChordLink {
   /// true where diagonal 0 of the chord joins the component's parallel edges 1 and 2, false where
   /// it joins 0 and 3
   bool turned = false;
+  /// For each of the component's four edges along the chord which one of the first link's it goes on
+  /// from; the others are opposite or beside as there.
+  std::array<int, 4> group = {0, 1, 2, 3};
 };
 
 /// How a chord is collapsed: along which diagonal the cross-section folds.
@@ -25,6 +29,8 @@ struct Chord {
   std::vector<ChordLink> links;  ///< in order along the chord
   bool closed = false;           ///< comes back to its start
   bool self_crossing = false;    ///< some component is passed twice
+  /// If it is closed, as ChordLink::group of the first link when it is come back to.
+  std::array<int, 4> group_at_end = {0, 1, 2, 3};
   /// The diagonals fall together (the chord is twisted by a quarter turn); it cannot be collapsed.
   bool twisted = false;
 };

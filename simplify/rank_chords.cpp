@@ -29,10 +29,14 @@ double mean_deviation(const BaseComplex& bc, const Chord& chord, Diagonal diagon
 int singular_groups(const BaseComplex& bc, const Chord& chord) {
   std::array<bool, 4> singular = {};
   for (const ChordLink& l : chord.links) {
-    const LinkEdges e = link_edges(bc, l, Diagonal::first);
-    const std::array<int, 4> ids = {e.a, e.b, e.c, e.d};
-    for (int i = 0; i < 4; ++i) singular[i] |= bc.edges[ids[i]].singular;
+    for (int i = 0; i < 4; ++i) {
+      const int edge = bc.components[l.component].edges[4 * l.axis + i];
+      singular[l.group[i]] |= bc.edges[edge].singular;
+    }
   }
+  // Of a closed chord that is twisted by half a turn two groups each are one.
+  for (int i = 0; i < 4; ++i) singular[chord.group_at_end[i]] |= singular[i];
+  for (int i = 0; i < 4; ++i) singular[i] |= singular[chord.group_at_end[i]];
   return static_cast<int>(std::count(singular.begin(), singular.end(), true));
 }
 
