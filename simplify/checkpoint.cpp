@@ -89,7 +89,6 @@ Profile profile_of(const Json& j) {
 
 Json to_json(const RunState& s) {
   return {{"step", s.step},
-          {"failed_in_a_row", s.failed_in_a_row},
           {"smoothed", s.smoothed},
           {"distance_share", s.distance_share},
           {"target_cells", s.target_cells},
@@ -108,7 +107,6 @@ RunState run_state(const Json& j) {
   RunState s;
   try {
     s.step = j.at("step").get<int>();
-    s.failed_in_a_row = j.at("failed_in_a_row").get<int>();
     s.smoothed = j.at("smoothed").get<bool>();
     s.distance_share = j.at("distance_share").get<double>();
     s.target_cells = j.at("target_cells").get<double>();

@@ -25,8 +25,7 @@ struct SimplifyOptions;
 
 /// What a run carries from step to step, beside the mesh.
 struct RunState {
-  int step = 0;  ///< 0: the mesh is the input still
-  int failed_in_a_row = 0;
+  int step = 0;           ///< 0: the mesh is the input still
   bool smoothed = false;  ///< what is left are goes from the smoothed mesh
   double distance_share =
       1;                    ///< (0, 1] of the Hausdorff limit, which the loop keeps at its sampling

@@ -31,7 +31,8 @@ void validate(const SimplifyOptions& o) {
   };
   expect_angle("valence.max_angle_deg", o.valence.max_angle_deg);
   expect_angle("bold.max_angle_deg", o.bold.max_angle_deg);
-  expect(o.target_hexahedra_rel > 0, "target_hexahedra_rel", o.target_hexahedra_rel, "> 0");
+  expect(o.target_hexahedra_rel > 0 && o.target_hexahedra_rel <= 1000, "target_hexahedra_rel",
+         o.target_hexahedra_rel, "(0, 1000]");
   expect(o.threads > 0, "threads", o.threads, "> 0");
   expect(o.attempts > 0, "attempts", o.attempts, "> 0");
   expect(o.attempts == 1 || !o.checkpoint, "attempts", o.attempts, "1 where checkpoints are kept");

@@ -50,7 +50,8 @@ struct SimplifyOptions {
   double min_scaled_jacobian = 0.1;   ///< [0, 1); a step may not leave its region below both this
                                       ///< and what it found there
   double mean_scaled_jacobian = 0.7;  ///< [0, 1); the same for the mean over the region
-  double target_hexahedra_rel = 1.0;  ///< > 0, of the input's count; below it sheets are refined
+  double target_hexahedra_rel =
+      1.0;  ///< (0, 1000], of the input's count; below it sheets are refined
   /// > 0, rings of cells that move round the collapse of a layer; round that of several two more
   int rings = 3;
   /// > 0, runs from the input, of which the outcome of the fewest components is taken (attempts.h)

@@ -116,6 +116,7 @@ bool try_refine(TrialContext& context, const DualSheet& sheet, const SimplifyOpt
     if (!stays_on_surface(context, touched)) return false;
   }
   commit(context, trial);
+  context.labels.reset();
   return true;
 }
 

@@ -29,7 +29,8 @@ struct TrialContext {
   int most_cells = 0;
   StageClock* clock = nullptr;  ///< told of the stages of a trial, if any
   /// Features of the mesh's vertices, once they have been asked for. Like the graph that
-  /// try_collapse_locally() is given they may be out of date where the mesh has changed since.
+  /// try_collapse_locally() is given they may be out of date where the mesh has changed since. To be
+  /// reset after edits that add vertices, and after HexMesh::collect_garbage(); try_refine() does so.
   std::optional<std::vector<FeatureLabel>> labels = {};
   NearLines near_lines = {};  ///< where the features were asked for
   const std::vector<FeatureLabel>& feature_labels();

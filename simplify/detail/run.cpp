@@ -1,6 +1,7 @@
 #include "simplify/detail/run.h"
 
 #include <algorithm>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -47,6 +48,13 @@ SimplifyOptions bold_options(SimplifyOptions options) {
   return options;
 }
 
+void expect_mesh_can_have(double cells) {
+  constexpr int kMost = std::numeric_limits<int>::max() / 12;  // as many half-edges are numbered
+  if (cells > kMost)
+    throw InputError(
+        fmt::format("{:.3g} hexahedra are asked for, expected at most {}", cells, kMost));
+}
+
 }  // namespace
 
 Run::Run(HexMesh& mesh, const ReferenceSurface& reference, const SimplifyOptions& options,
@@ -76,6 +84,7 @@ Run::Run(HexMesh& mesh, const ReferenceSurface& reference, const SimplifyOptions
     throw InputError(fmt::format("{} regions of the base complex are no cuboids", bc_.irregular));
   }
   report_.before = measure_mesh(mesh);
+  expect_mesh_can_have(kMostCells * full_count());
   aim_at(full_count());
   take_as_verified();
 }

@@ -140,14 +140,15 @@ void Run::collapse_in_order(const Candidates& candidates, int most, TrialCounts&
   const bool compares = options_.compare > 1;
   std::vector<Ready> pool;
   auto components = static_cast<int>(bc_.components.size());
-  for (auto next = candidates.begin(); !should_stop();) {
+  for (auto next = candidates.begin();;) {
     while (std::ssize(pool) < options_.compare && next != candidates.end()) {
-      if (should_stop()) return;
+      // However many fail beside one that succeeds, that is progress.
+      if (pool.empty() && should_stop()) return;
       std::optional<Ready> ready = prepare(propose(*next++), counts, turn);
       if (ready && (!compares || weigh(*ready, components, counts, turn)))
         pool.push_back(*std::move(ready));
     }
-    if (pool.empty()) return;
+    if (pool.empty() || is_cut_short()) return;
     const auto best = std::max_element(
         pool.begin(), pool.end(), [](const Ready& a, const Ready& b) { return a.worth < b.worth; });
     const Ready candidate = std::move(*best);

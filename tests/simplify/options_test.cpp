@@ -45,6 +45,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadOption{"mean_scaled_jacobian", [](O& o) { o.mean_scaled_jacobian = 1; }},
         BadOption{"mean_scaled_jacobian", [](O& o) { o.mean_scaled_jacobian = kNaN; }},
         BadOption{"target_hexahedra_rel", [](O& o) { o.target_hexahedra_rel = 0; }},
+        BadOption{"target_hexahedra_rel", [](O& o) { o.target_hexahedra_rel = 1001; }},
         BadOption{"beta", [](O& o) { o.weights.beta = -1; }},
         BadOption{"angle_deg",
                   [](O& o) {

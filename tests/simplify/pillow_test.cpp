@@ -143,6 +143,7 @@ TEST_P(PillowsOfEveryFamily, AnInsertedOneAddsItsComponentsAndLeavesTheSheetItsC
       EXPECT_TRUE(MeshDump(mesh) == before);
     }
   }
+  RecordProperty("inserted", inserted_ones);
 }
 
 TEST_P(PillowsOfEveryFamily, ATrialThatIsRefusedLeavesEverythingAsItWas) {
