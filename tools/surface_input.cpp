@@ -5,14 +5,30 @@
 #include "io/file.h"
 #include "io/hex_mesh_io.h"
 #include "io/surface_io.h"
+#include "optimize/orient_surface.h"
 
 namespace hexweft::cli {
+namespace {
+
+// Vertices look for the surface that faces their way.
+void orient(SurfaceMesh& surface) {
+  const auto n = static_cast<std::size_t>(orient_surface(surface.points, surface.triangles));
+  if (n == 0) return;
+  const std::size_t n_all = surface.triangles.size();
+  surface.notes.push_back(
+      (n == n_all ? "all triangles"
+                  : std::to_string(n) + " of " + std::to_string(n_all) + " triangles") +
+      " faced into the solid or against their neighbours; they were turned");
+}
+
+}  // namespace
 
 ReferenceSurface read_surface_input(const std::filesystem::path& path,
                                     std::vector<std::string>& notes,
                                     const FeatureOptions& features) {
   if (is_surface_file(path)) {
     SurfaceMesh surface = read_surface_mesh(path);
+    orient(surface);
     notes.insert(notes.end(), surface.notes.begin(), surface.notes.end());
     return {std::move(surface.points), std::move(surface.triangles), kNormalAngleDeg, features};
   }

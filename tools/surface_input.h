@@ -14,8 +14,9 @@ namespace hexweft::cli {
 inline constexpr const char* kSurfaceHelp =
     "a hexahedral mesh (its boundary counts), or a surface: .obj, .off, .ply, .stl";
 
+/// The triangles of a file are made to face out of the solid (orient_surface.h).
 /// \param path      "-" is a mesh on standard input
-/// \param notes     what reading a mesh has to say is appended
+/// \param notes     what reading a mesh or a surface has to say is appended
 /// \param features  which lines and corners of it are held
 /// \throws FormatError if it cannot be read, InputError if a mesh has no cells
 ReferenceSurface read_surface_input(const std::filesystem::path& path,

@@ -1,4 +1,6 @@
 // hexweft-optimize as a stranger meets it.
+#include <sstream>
+
 #include <nlohmann/json.hpp>
 
 #include "io/hex_mesh_io.h"
@@ -21,6 +23,25 @@ HexMesh make_tangled_grid() {
     if (p == Eigen::Vector3d(3, 3, 2)) mesh.set_point(v, {3.1, 4.4, 2.2});
   }
   return mesh;
+}
+
+// The boundary of a mesh as OBJ; of so many triangles each first one is turned, 0: none.
+std::string boundary_obj(const HexMesh& mesh, int turned) {
+  std::ostringstream obj;
+  obj.precision(17);
+  for (const VertexHandle v : mesh.vertices()) obj << "v " << mesh.point(v).transpose() << '\n';
+  int n = 0;
+  const auto triangle = [&](int a, int b, int c) {
+    if (turned > 0 && n++ % turned == 0) std::swap(b, c);
+    obj << "f " << a + 1 << ' ' << b + 1 << ' ' << c + 1 << '\n';
+  };
+  for (const HalfFaceHandle hf : mesh.boundary_halffaces()) {
+    std::vector<int> q;
+    for (const VertexHandle v : mesh.vertices(hf)) q.push_back(v.idx);
+    triangle(q[0], q[1], q[2]);
+    triangle(q[2], q[3], q[0]);
+  }
+  return obj.str();
 }
 
 TEST_F(OptimizeTool, ImprovesAnOctreeLikeMeshOnItsSurface) {
@@ -72,6 +93,23 @@ TEST_F(OptimizeTool, StaysOnAnotherSurface) {
   const Json j = Json::parse(result.out);
   const Json distance = Json::parse(run("hexweft-distance out.vtk fine.vtk --json -").out);
   EXPECT_EQ(j["after"]["hausdorff_ratio"], distance["ratio"]);
+}
+
+TEST_F(OptimizeTool, ItDoesNotMatterWhichWayTheTrianglesOfASurfaceFace) {
+  ASSERT_EQ(run("hexweft-generate octree-like --resolution 6 -o in.vtk").exit_code, 0);
+  const HexMesh mesh = read_hex_mesh(file("in.vtk"));
+  std::string expected;
+  for (const int turned : {0, 1, 2}) {
+    SCOPED_TRACE(turned);
+    write_file(file("surface.obj"), boundary_obj(mesh, turned));
+    const ToolRun result =
+        run("hexweft-optimize in.vtk -o out.vtk --surface surface.obj --local-trials 5");
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    if (turned == 0) expected = read_file(file("out.vtk"));
+    EXPECT_EQ(read_file(file("out.vtk")), expected);
+    EXPECT_EQ(result.err.find("faced into the solid") != std::string::npos, turned > 0);
+  }
+  EXPECT_GT(min_scaled_jacobian(read_hex_mesh(file("out.vtk"))), min_scaled_jacobian(mesh));
 }
 
 TEST_F(OptimizeTool, FeaturesHoldTheEdgesOfABox) {
