@@ -1,6 +1,8 @@
 #include "io/surface_io.h"
 
 #include <algorithm>
+#include <numeric>
+#include <tuple>
 
 #include "io/file.h"
 #include "io/polygon_soup.h"
@@ -17,6 +19,30 @@ constexpr std::array kReaders{read_obj, read_off, read_ply, read_stl};  // in th
 
 auto find_extension(const std::filesystem::path& path) {
   return std::find(kExtensions.begin(), kExtensions.end(), lower_case(path.extension().string()));
+}
+
+/// Points in the same place become the first of them: what is next to what goes by points, and some
+/// writers give each polygon its own.
+void join_equal_points(PolygonSoup& soup) {
+  const auto& points = soup.points;
+  const auto place = [&](int i) { return std::tie(points[i][0], points[i][1], points[i][2]); };
+  std::vector<int> order(points.size()), first(points.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+            [&](int i, int j) { return place(i) < place(j) || (place(i) == place(j) && i < j); });
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const bool again = k > 0 && place(order[k]) == place(order[k - 1]);
+    first[order[k]] = again ? first[order[k - 1]] : order[k];
+  }
+  std::vector<Eigen::Vector3d> kept;
+  for (int i = 0; i < static_cast<int>(first.size()); ++i) {
+    if (first[i] == i) kept.push_back(points[i]);
+    first[i] = first[i] == i ? static_cast<int>(kept.size()) - 1 : first[first[i]];
+  }
+  soup.points = std::move(kept);
+  for (std::vector<int>& polygon : soup.polygons) {
+    for (int& v : polygon) v = first[v];
+  }
 }
 
 std::vector<std::array<int, 3>> cut_into_triangles(const PolygonSoup& soup,
@@ -74,6 +100,7 @@ SurfaceMesh read_surface_mesh_text(std::string_view text, const std::filesystem:
     throw FormatError(name.string() + ": expected a surface: .obj, .off, .ply or .stl");
   }
   PolygonSoup soup = kReaders[extension - kExtensions.begin()](text, name.string());
+  join_equal_points(soup);
   SurfaceMesh surface;
   surface.notes = std::move(soup.notes);
   surface.triangles = cut_into_triangles(soup, surface.notes);

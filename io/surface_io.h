@@ -3,7 +3,8 @@
 ///
 ///     const SurfaceMesh surface = read_surface_mesh("scan.ply");
 ///
-/// Polygons are cut into fans of triangles. The values are those of the file, in double precision.
+/// Polygons are cut into fans of triangles. The values are those of the file, in double precision;
+/// points that have all three in common are one.
 #pragma once
 
 #include <array>
@@ -17,7 +18,7 @@
 namespace hexweft {
 
 struct SurfaceMesh {
-  Eigen::Matrix3Xd points;  ///< 3 × #points, each used by a triangle
+  Eigen::Matrix3Xd points;  ///< 3 × #points, different, each used by a triangle
   std::vector<std::array<int, 3>> triangles;
   std::vector<std::string> notes;  ///< what was left out
 };

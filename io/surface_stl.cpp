@@ -1,6 +1,3 @@
-#include <array>
-#include <map>
-
 #include "io/byte_scanner.h"
 #include "io/polygon_soup.h"
 #include "io/text_scanner.h"
@@ -10,26 +7,15 @@ namespace {
 
 constexpr std::size_t kHeader = 84, kTriangle = 50;  // bytes of a binary file
 
-/// Triangles that come with the coordinates of their corners: equal ones are one point.
-class PointMerger {
- public:
-  explicit PointMerger(PolygonSoup& soup) : soup_(soup) {}
-  int index(const Eigen::Vector3d& p) {
-    const std::array<double, 3> key{p[0] + 0.0, p[1] + 0.0, p[2] + 0.0};  // -0 becomes 0
-    const auto [it, is_new] = index_.try_emplace(key, static_cast<int>(soup_.points.size()));
-    if (is_new) soup_.points.push_back(p);
-    return it->second;
-  }
-
- private:
-  PolygonSoup& soup_;
-  std::map<std::array<double, 3>, int> index_;
-};
+/// Triangles come with the coordinates of their corners, so that each has points of its own.
+int add_point(const Eigen::Vector3d& p, PolygonSoup& soup) {
+  soup.points.push_back(p);
+  return static_cast<int>(soup.points.size()) - 1;
+}
 
 /// \pre the size of the file is that of so many triangles
 PolygonSoup read_binary(std::string_view bytes, const std::string& path) {
   PolygonSoup soup;
-  PointMerger merger(soup);
   ByteScanner in(bytes, path);
   in.take(kHeader, "a header");
   const std::size_t n = in.remaining() / kTriangle;
@@ -45,7 +31,7 @@ PolygonSoup read_binary(std::string_view bytes, const std::string& path) {
         in.fail(at, "expected finite coordinates of triangle " + std::to_string(i) +
                         ", found another value");
       }
-      triangle.push_back(merger.index(p));
+      triangle.push_back(add_point(p, soup));
     }
     soup.polygons.push_back(std::move(triangle));
     in.take(2, "an attribute");
@@ -55,7 +41,7 @@ PolygonSoup read_binary(std::string_view bytes, const std::string& path) {
 
 class StlTextReader {
  public:
-  StlTextReader(std::string_view text, const std::string& path) : in_(text, path), merger_(soup_) {}
+  StlTextReader(std::string_view text, const std::string& path) : in_(text, path) {}
 
   PolygonSoup read() {
     do {
@@ -81,7 +67,7 @@ class StlTextReader {
     std::vector<int> triangle;
     for (int k = 0; k < 3; ++k) {
       expect("vertex");
-      triangle.push_back(merger_.index(read_point()));
+      triangle.push_back(add_point(read_point(), soup_));
     }
     expect("endloop");
     expect("endfacet");
@@ -99,7 +85,6 @@ class StlTextReader {
 
   TextScanner in_;
   PolygonSoup soup_;
-  PointMerger merger_;
 };
 
 }  // namespace

@@ -109,6 +109,48 @@ TEST(SurfaceFile, EqualPointsOfStlAreOne) {
   }
 }
 
+/// The corners of all triangles, one after the other.
+Eigen::Matrix3Xd corners(const SurfaceMesh& s) {
+  Eigen::Matrix3Xd result(3, 3 * s.triangles.size());
+  Eigen::Index n = 0;
+  for (const auto& t : s.triangles) {
+    for (int v : t) result.col(n++) = s.points.col(v);
+  }
+  return result;
+}
+
+TEST(SurfaceFile, FacesWithPointsOfTheirOwnReadAsThoseThatShareThem) {
+  std::ostringstream points, faces, obj;
+  std::istringstream numbers(kFaces);
+  for (int n = 0, count, v; numbers >> count; n += count) {
+    std::ostringstream obj_face;
+    faces << count;
+    for (int i = n; i < n + count && numbers >> v; ++i) {
+      const auto& x = kCornerCoords[v];
+      points << x[0] << ' ' << x[1] << ' ' << x[2] << '\n';
+      obj << "v " << x[0] << ' ' << x[1] << ' ' << x[2] << '\n';
+      faces << ' ' << i;
+      obj_face << ' ' << i + 1;
+    }
+    faces << '\n';
+    obj << 'f' << obj_face.str() << '\n';
+  }
+  const SurfaceMesh shared = read_surface_mesh_text(kOff, "shared.off");
+  std::string header = kPlyHeader;
+  header.replace(header.find('8'), 1, "24");
+  const std::string rows = points.str() + faces.str();
+  for (const auto& [name, content] :
+       {std::pair<std::string, std::string>("x.off", "OFF\n24 6 0\n" + rows),
+        {"x.obj", obj.str()},
+        {"x.ply", "ply\nformat ascii 1.0\n" + header + rows}}) {
+    SCOPED_TRACE(name);
+    const SurfaceMesh own = read_surface_mesh_text(content, name);
+    EXPECT_EQ(own.points.cols(), 8);
+    EXPECT_EQ(corners(own), corners(shared));
+    EXPECT_THAT(own.notes, testing::IsEmpty());
+  }
+}
+
 TEST(SurfaceFile, CoordinatesKeepTheirDigits) {
   const double x = 1234567.0000012345;
   const std::string row = "1234567.0000012345 0 0\n";
