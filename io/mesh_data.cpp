@@ -19,13 +19,18 @@ double centre_jacobian(const MeshData& data, const std::array<int, 8>& cell) {
   return edges.col(0).cross(edges.col(1)).dot(edges.col(2));
 }
 
+// Of a mirrored file the bad hexahedra are those whose volume is positive.
 void unmirror(MeshData& data) {
-  const bool mirrored = std::all_of(data.cells.begin(), data.cells.end(), [&](const auto& cell) {
-    return centre_jacobian(data, cell) < 0;
-  });
-  if (!mirrored) return;
+  const auto n = static_cast<std::size_t>(
+      std::count_if(data.cells.begin(), data.cells.end(),
+                    [&](const auto& cell) { return centre_jacobian(data, cell) < 0; }));
+  if (2 * n <= data.cells.size()) return;
   for (auto& cell : data.cells) std::swap_ranges(cell.begin(), cell.begin() + 4, cell.begin() + 4);
-  data.notes.push_back("all hexahedra were numbered mirrored; they were turned into VTK order");
+  data.notes.push_back(
+      n == data.cells.size()
+          ? "all hexahedra were numbered mirrored; they were turned into VTK order"
+          : std::to_string(n) + " of " + std::to_string(data.cells.size()) +
+                " hexahedra were numbered mirrored; all were turned into VTK order");
 }
 
 void drop_isolated_points(MeshData& data) {

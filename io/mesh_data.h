@@ -36,9 +36,9 @@ void check_cells(const MeshData& data, int base,
                  const std::function<void(int cell, const std::string& problem)>& fail,
                  const std::function<std::string(int vertex)>& name = {});
 
-/// Builds the mesh; points and cells keep the file's order. Where *every* cell has a negative
-/// volume the file numbers its corners mirrored, and they are turned into VTK order; a mix stays as
-/// it is. \param keep_isolated_vertices  points that no cell uses: kept, or left out and counted in
+/// Builds the mesh; points and cells keep the file's order. Where more than half of the cells have a
+/// negative volume the file numbers its corners mirrored, and all are turned into VTK order, which is
+/// noted. \param keep_isolated_vertices  points that no cell uses: kept, or left out and counted in
 /// `notes` \pre check_cells finds nothing
 HexMesh build_hex_mesh(MeshData data, bool keep_isolated_vertices, std::vector<std::string>& notes);
 

@@ -1,4 +1,6 @@
 // Where each format puts which corner of a cell.
+#include <sstream>
+
 #include "io/formats.h"
 #include "tests/io/ovm_samples.h"
 #include "tests/io/sample_meshes.h"
@@ -82,26 +84,38 @@ TEST(UnitCube, VoxelIsRenumbered) {
   }
 }
 
-TEST(UnitCube, MirroredCellsAreTurnedOnlyIfAllAre) {
-  const auto cells = [](const std::string& list) {
-    return "MeshVersionFormatted 1 Dimension 3 Vertices 12 "
-           "0 0 0 0 1 0 0 0 1 1 0 0 0 1 0 0 0 0 1 0 1 0 1 0 1 1 1 0 0 1 1 0 "
-           "0 0 2 0 1 0 2 0 1 1 2 0 0 1 2 0 Hexahedra 2 " +
-           list;
+TEST(UnitCube, CellsAreTurnedIfMoreThanHalfAreMirrored) {
+  // A tower of cells, one on the other.
+  const auto tower = [](const std::vector<bool>& mirrored) {
+    const int n = static_cast<int>(mirrored.size());
+    std::ostringstream text;
+    text << "MeshVersionFormatted 1 Dimension 3 Vertices " << 4 * (n + 1);
+    for (int z = 0; z <= n; ++z) {
+      for (const char* corner : {"0 0", "1 0", "1 1", "0 1"})
+        text << '\n' << corner << ' ' << z << " 0";
+    }
+    text << "\nHexahedra " << n;
+    for (int c = 0; c < n; ++c) {
+      text << '\n';
+      for (int i = 0; i < 8; ++i) text << 4 * c + 1 + (mirrored[c] ? (i + 4) % 8 : i) << ' ';
+      text << '0';
+    }
+    return text.str();
   };
-  const auto first_corner = [](const HexMesh& mesh, int cell) {
-    return mesh.vertices(CellHandle(cell))[0].idx;
-  };
-  ReadReport report;
-  const HexMesh all =
-      read_hex_mesh_text(cells("5 6 7 8 1 2 3 4 0 9 10 11 12 5 6 7 8 0"), "m", {}, &report);
-  EXPECT_EQ(first_corner(all, 0), 0);
-  EXPECT_EQ(first_corner(all, 1), 4);
-  EXPECT_THAT(report.notes, testing::ElementsAre(testing::HasSubstr("mirrored")));
-  const HexMesh one =
-      read_hex_mesh_text(cells("5 6 7 8 1 2 3 4 0 5 6 7 8 9 10 11 12 0"), "m", {}, &report);
-  EXPECT_EQ(first_corner(one, 0), 4);
-  EXPECT_THAT(report.notes, testing::IsEmpty());
+  for (const auto& [mirrored, note] :
+       {std::pair<std::vector<bool>, std::string>{{false, false}, ""},
+        {{true, false}, ""},
+        {{true, true}, "all hexahedra were numbered mirrored; they were turned into VTK order"},
+        {{true, false, true},
+         "2 of 3 hexahedra were numbered mirrored; all were turned into VTK order"}}) {
+    ReadReport report;
+    const HexMesh mesh = read_hex_mesh_text(tower(mirrored), "m", {}, &report);
+    for (int c = 0; c < mesh.n_cells(); ++c) {
+      const bool is_inverted = mesh.vertices(CellHandle(c))[0].idx != 4 * c;
+      EXPECT_EQ(is_inverted, note.empty() ? mirrored[c] : !mirrored[c]);
+    }
+    EXPECT_EQ(report.notes, note.empty() ? std::vector<std::string>() : std::vector{note});
+  }
 }
 
 }  // namespace
