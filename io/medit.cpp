@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 #include "io/number_text.h"
@@ -12,37 +13,17 @@ namespace {
 
 using namespace detail;
 
-struct Section {
-  std::string_view name;
-  int row;        ///< numbers a row
-  bool is_solid;  ///< cells that a hex mesh cannot hold
-};
+// How the names of sections of cells begin that a hex mesh cannot hold.
+constexpr std::array<std::string_view, 6> kOtherSolids{"tetrahedra", "pyramids",   "prisms",
+                                                       "pentahedra", "hexahedraq", "polyhedra"};
 
-constexpr std::array<Section, 23> kOtherSections{{
-    {"Edges", 3, false},
-    {"Triangles", 4, false},
-    {"Quadrilaterals", 5, false},
-    {"Tetrahedra", 5, true},
-    {"Pyramids", 6, true},
-    {"Prisms", 7, true},
-    {"Pentahedra", 7, true},
-    {"Corners", 1, false},
-    {"Ridges", 1, false},
-    {"RequiredVertices", 1, false},
-    {"RequiredEdges", 1, false},
-    {"RequiredTriangles", 1, false},
-    {"RequiredQuadrilaterals", 1, false},
-    {"TangentAtEdges", 3, false},
-    {"NormalAtVertices", 2, false},
-    {"NormalAtTriangleVertices", 3, false},
-    {"NormalAtQuadrilateralVertices", 3, false},
-    {"TangentAtVertices", 2, false},
-    {"AngleOfCornerBound", 1, false},
-    {"Normals", 3, false},
-    {"Tangents", 3, false},
-    {"SubDomainFromGeom", 4, false},
-    {"SubDomainFromMesh", 4, false},
-}};
+bool is_keyword(std::string_view word) {
+  constexpr std::size_t kLongest = 40;
+  const auto is_letter = [](char c) { return c >= 'a' && c <= 'z'; };
+  const auto may_follow = [&](char c) { return is_letter(c) || (c >= '0' && c <= '9'); };
+  return !word.empty() && word.size() <= kLongest && is_letter(word[0]) &&
+         std::all_of(word.begin(), word.end(), may_follow);
+}
 
 class MeditReader {
  public:
@@ -65,7 +46,8 @@ class MeditReader {
   void read_vertices();
   void read_hexahedra();
   void check_cells();
-  void skip_section(const Section& section);
+  void refuse_solids();
+  void skip_section();
   void add_references(std::vector<DataArray>& arrays, std::vector<std::int64_t> references);
 
   std::int64_t read_count(std::string_view section, std::int64_t most) {
@@ -118,10 +100,11 @@ void MeditReader::read_section() {
   }
   if (keyword == "vertices") return read_vertices();
   if (keyword == "hexahedra") return read_hexahedra();
-  for (const Section& section : kOtherSections) {
-    if (lower_case(section.name) == keyword) return skip_section(section);
+  if (!is_keyword(keyword)) in_.fail_expected("a section of a Medit file");
+  for (std::string_view solids : kOtherSolids) {
+    if (keyword.starts_with(solids)) refuse_solids();
   }
-  in_.fail_expected("a section of a Medit file");
+  skip_section();
 }
 
 void MeditReader::read_vertices() {
@@ -179,23 +162,30 @@ void MeditReader::check_cells() {
   });
 }
 
-void MeditReader::skip_section(const Section& section) {
-  in_.next();
-  const std::int64_t n = read_count(section.name, std::numeric_limits<int>::max());
-  if (section.is_solid && n > 0) {
-    in_.fail(section_, "expected Hexahedra alone, found " + std::to_string(n) + " " +
-                           std::string(section.name));
-  }
-  for (std::int64_t i = 0; i < n * section.row; ++i) {
-    double number;
-    if (!in_.read(number)) {
-      in_.fail_expected("a number (" + std::to_string(i + 1) + " of " +
-                        std::to_string(n * section.row) + " of " + std::string(section.name) + ")");
-    }
-  }
+void MeditReader::refuse_solids() {
+  const std::size_t before = in_.offset();
+  const std::string section(in_.next());
+  const std::int64_t n = read_count(section, std::numeric_limits<int>::max());
   if (n > 0) {
-    data_.notes.push_back(std::to_string(n) + " " + std::string(section.name) + " were left out");
+    in_.fail(section_, "expected Hexahedra alone, found " + std::to_string(n) + " " + section);
   }
+  in_.seek(before);
+}
+
+// Of most sections the first number is that of rows, but some have none, and how many numbers there
+// are in a row is known of few: the numbers go on to the next word.
+void MeditReader::skip_section() {
+  const std::string section(in_.next());
+  double first, number;
+  if (!in_.read(first)) in_.fail_expected("a number of section " + section);
+  std::int64_t n = 0;
+  while (in_.read(number)) ++n;
+  if (n == 0 && first == 0) return;
+  const bool counts_rows = n > 0 && first >= 1 && first == std::floor(first) &&
+                           std::fmod(static_cast<double>(n), first) == 0;
+  data_.notes.push_back(counts_rows ? std::to_string(static_cast<std::int64_t>(first)) + " " +
+                                          section + " were left out"
+                                    : "section " + section + " was left out");
 }
 
 void MeditReader::add_references(std::vector<DataArray>& arrays,

@@ -2,8 +2,8 @@
 /// Medit text files (.mesh) of dimension 3, versions 1 to 4.
 ///
 /// Read: Vertices and Hexahedra; their references become the named int property "medit:ref" of
-/// vertices and of cells where any is not 0. Sections of edges, faces, corners, normals and the
-/// like are left out with a note; other solid cells are an error. Written: the same two sections,
+/// vertices and of cells where any is not 0. Other solid cells are an error; every other section, a
+/// word and the numbers up to the next one, is left out with a note. Written: the same two sections,
 /// version 2. Source: P. Frey, "MEDIT: an interactive mesh visualization software", INRIA RT-0253.
 #pragma once
 

@@ -30,6 +30,25 @@ TEST(Medit, SectionsInAnyOrderCaseAndLayout) {
                                 "1 RequiredVertices were left out", "1 Normals were left out"));
 }
 
+TEST(Medit, SectionsOfEveryLayoutAreLeftOut) {
+  ReadReport report;
+  const HexMesh mesh = read_hex_mesh_text(
+      medit("AngleOfCornerBound\n45.5\nTime 0\nBoundingBox\n0 0 0\n1 1 1\nTetrahedra 0\n"
+            "NormalAtQuadrilateralVertices\n1\n1 2 3 4\nTangentAtEdgeVertices\n2\n1 1 2\n2 1 2\n" +
+            kVertices +
+            "VertexOnGeometricVertex 1 1 7\nISolutionAtVertices 1 1 1 0.5\nRidges 0\n"
+            "Hexahedra 1\n1 2 3 4 5 6 7 8 0\nEdges 2\n1 2 0\n2 3\nEnd\n"),
+      "x.mesh", {}, &report);
+  EXPECT_EQ(mesh.n_cells(), 1);
+  EXPECT_THAT(report.notes, testing::ElementsAre("section AngleOfCornerBound was left out",
+                                                 "section BoundingBox was left out",
+                                                 "1 NormalAtQuadrilateralVertices were left out",
+                                                 "2 TangentAtEdgeVertices were left out",
+                                                 "1 VertexOnGeometricVertex were left out",
+                                                 "1 ISolutionAtVertices were left out",
+                                                 "section Edges was left out"));
+}
+
 TEST(Medit, EndMayBeMissing) {
   EXPECT_EQ(error_of(medit(kVertices + "Hexahedra 1\n1 2 3 4 5 6 7 8 0")), "");
 }
@@ -41,8 +60,16 @@ TEST(Medit, ErrorsNameTheLine) {
             "in.mesh:1: expected a version from 1 to 4, found \"9\"");
   EXPECT_EQ(error_of("MeshVersionFormatted 1\nDimension 2\n"),
             "in.mesh:2: expected dimension 3, found \"2\"");
-  EXPECT_EQ(error_of(medit("Voxels 3\n")),
-            "in.mesh:3: expected a section of a Medit file, found \"Voxels\"");
+  EXPECT_EQ(error_of(medit("Voxels many\n")),
+            "in.mesh:3: expected a number of section Voxels, found \"many\"");
+  EXPECT_EQ(error_of(medit("<Voxels> 3\n")),
+            "in.mesh:3: expected a section of a Medit file, found \"<Voxels>\"");
+  EXPECT_EQ(error_of(medit("Vertizes 1\n0 0 0 1\n" + cell)),
+            "in.mesh:7: expected Vertices, found the end of the file");
+  EXPECT_EQ(error_of(medit("Vertices many\n")),
+            "in.mesh:3: expected the number of Vertices, found \"many\"");
+  EXPECT_EQ(error_of(medit("Vertices 1\n0 0 0 1\n0 0 1 1\n")),
+            "in.mesh:5: expected a section of a Medit file, found \"0\"");
   EXPECT_EQ(error_of(medit(cell)), "in.mesh:5: expected Vertices, found the end of the file");
   EXPECT_EQ(error_of(medit(kVertices)),
             "in.mesh:11: expected Hexahedra, found the end of the file");
@@ -71,8 +98,10 @@ TEST(Medit, ErrorsNameTheLine) {
             "in.mesh:3: Vertices: expected a number in [0, 1073741823], found -1");
   EXPECT_EQ(error_of(medit(kVertices + cell + "Tetrahedra 1\n1 2 3 4 0\n")),
             "in.mesh:15: expected Hexahedra alone, found 1 Tetrahedra");
-  EXPECT_EQ(error_of(medit(kVertices + cell + "Edges 2\n1 2 0\n2 3\n")),
-            "in.mesh:17: expected a number (6 of 6 of Edges), found the end of the file");
+  EXPECT_EQ(error_of(medit(kVertices + cell + "HexahedraQ2 1\n1 2 3 4 0\n")),
+            "in.mesh:15: expected Hexahedra alone, found 1 HexahedraQ2");
+  EXPECT_EQ(error_of(medit(kVertices + cell + "Tetrahedra x\n")),
+            "in.mesh:15: expected the number of Tetrahedra, found \"x\"");
 }
 
 }  // namespace
