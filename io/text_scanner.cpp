@@ -9,6 +9,11 @@ namespace hexweft::detail {
 
 std::string_view TextScanner::peek() {
   skip_blanks();
+  return peek_raw();
+}
+
+std::string_view TextScanner::peek_raw() {
+  while (at_ < text_.size() && is_blank(text_[at_])) ++at_;
   std::size_t end = at_;
   while (end < text_.size() && !is_blank(text_[end])) ++end;
   return text_.substr(at_, end - at_);
@@ -16,6 +21,12 @@ std::string_view TextScanner::peek() {
 
 std::string_view TextScanner::next() {
   const std::string_view word = peek();
+  at_ += word.size();
+  return word;
+}
+
+std::string_view TextScanner::next_raw() {
+  const std::string_view word = peek_raw();
   at_ += word.size();
   return word;
 }

@@ -32,6 +32,9 @@ class TextScanner {
   }
   std::string_view peek();  ///< the next word without moving past it; empty at the end
   std::string_view next();  ///< the next word; empty at the end
+  /// As peek() and next(), but a word may start with `#`.
+  std::string_view peek_raw();
+  std::string_view next_raw();
   /// What is left of the line, without its blanks at either end; the cursor moves to the next line.
   std::string_view rest_of_line();
 

@@ -28,9 +28,10 @@ class AttributeReader {
   void skip_strings(std::size_t count);
   void skip_binary_string();
 
+  // VTK knows no comments, and writes `#` in names as it is.
   std::string read_name() {
-    if (in_.at_end()) in_.fail_expected("a name of a data array");
-    return decode_vtk_name(in_.next());
+    if (in_.peek_raw().empty()) in_.fail_expected("a name of a data array");
+    return decode_vtk_name(in_.next_raw());
   }
   VtkType read_type() {
     const auto type = find_vtk_type(in_.peek());
@@ -162,7 +163,7 @@ void AttributeReader::read_field() {
 }
 
 void AttributeReader::read_field_array(bool keep) {
-  while (lower_case(in_.peek()) == "metadata") {
+  while (lower_case(in_.peek_raw()) == "metadata") {
     in_.next();
     skip_vtk_metadata(in_);
   }

@@ -71,6 +71,18 @@ TEST(VtkData, IntegersThatNeedItBecome64Bits) {
   EXPECT_EQ((named_property<CellTag, std::int64_t>(mesh, "n")[CellHandle(0)]), -2147483649);
 }
 
+// As VTK writes them.
+TEST(VtkData, NamesMayStartWithTheSignOfComments) {
+  HexMesh expected = unit_cube();
+  named_property<CellTag, int>(expected, "#neighbours", 5);
+  named_property<CellTag, double>(expected, "#", 0.5);
+  named_property<CellTag, Eigen::VectorXd>(expected, "#2", Eigen::Vector2d(1, 2));
+  expect_same_mesh(cube_with("CELL_DATA 1\nSCALARS #neighbours int 1\nLOOKUP_TABLE default\n5\n"
+                             "FIELD #all 2\n# 1 1 double\n0.5\nMETADATA\nINFORMATION 0\n\n"
+                             "#2 2 1 double\n1 2\n"),
+                   expected);
+}
+
 TEST(VtkData, NamesAreCodedAndDecoded) {
   for (const std::string name :
        {"plain", "two words", "100%", "a\"b#c", "tab\tnewline\n", "\xc3\xa9"}) {
