@@ -83,6 +83,11 @@ Fit copy_values_of_any(const PropertyStorageBase& storage, const Handles& handle
   return fit;
 }
 
+bool are_within(const DataArray& array, std::int64_t least, std::int64_t most) {
+  return std::all_of(array.integers.begin(), array.integers.end(),
+                     [&](std::int64_t value) { return value >= least && value <= most; });
+}
+
 auto live_handles(const HexMesh& mesh, VertexTag*) { return mesh.vertices(); }
 auto live_handles(const HexMesh& mesh, CellTag*) { return mesh.cells(); }
 
@@ -90,13 +95,16 @@ auto live_handles(const HexMesh& mesh, CellTag*) { return mesh.cells(); }
 
 bool fits_int(const DataArray& array) {
   using Limits = std::numeric_limits<int>;
-  return std::all_of(array.integers.begin(), array.integers.end(), [](std::int64_t value) {
-    return value >= Limits::min() && value <= Limits::max();
-  });
+  return are_within(array, Limits::min(), Limits::max());
+}
+
+bool fits_double(const DataArray& array) {
+  constexpr std::int64_t kMost = std::int64_t{1} << std::numeric_limits<double>::digits;
+  return are_within(array, -kMost, kMost);
 }
 
 template <class Tag>
-void add_property(HexMesh& mesh, const DataArray& array) {
+void add_property(HexMesh& mesh, const DataArray& array, std::vector<std::string>& notes) {
   const auto& integers = array.integers;
   const int k = array.components;
   if (array.kind == ValueKind::real) {
@@ -116,6 +124,11 @@ void add_property(HexMesh& mesh, const DataArray& array) {
   } else if (k == 1) {
     fill_property<Tag>(mesh, array, std::int64_t{0}, [&](int i) { return integers[i]; });
   } else {
+    if (!fits_double(array)) {
+      notes.push_back("data array \"" + array.name +
+                      "\" has several integers a place, which became reals: those beyond 2^53 are "
+                      "rounded");
+    }
     add_real_property<Tag>(mesh, array, std::vector<double>(integers.begin(), integers.end()));
   }
 }
@@ -146,8 +159,8 @@ std::string left_out(const std::string& property, const std::string& reason) {
   return "property \"" + property + "\" was left out: " + reason;
 }
 
-template void add_property<VertexTag>(HexMesh&, const DataArray&);
-template void add_property<CellTag>(HexMesh&, const DataArray&);
+template void add_property<VertexTag>(HexMesh&, const DataArray&, std::vector<std::string>&);
+template void add_property<CellTag>(HexMesh&, const DataArray&, std::vector<std::string>&);
 template std::vector<DataArray> property_arrays<VertexTag>(const HexMesh&,
                                                            std::vector<std::string>&);
 template std::vector<DataArray> property_arrays<CellTag>(const HexMesh&, std::vector<std::string>&);

@@ -36,12 +36,14 @@ namespace detail {
 
 /// Whether every value of an array of integers is an int of 32 bits.
 bool fits_int(const DataArray& array);
+/// Whether every value of an array of integers is within ±2^53, where doubles hold all of them.
+bool fits_double(const DataArray& array);
 
 /// Makes a named property of the array; row i belongs to element i.
-/// Integers beyond 32 bits with several a place become reals.
+/// Integers beyond 32 bits with several a place become reals; `notes` tells if these may be rounded.
 /// \throws InputError if the mesh has a property of that name
 template <class Tag>
-void add_property(HexMesh& mesh, const DataArray& array);
+void add_property(HexMesh& mesh, const DataArray& array, std::vector<std::string>& notes);
 
 /// The named properties of the live vertices or cells, in order of birth. Those of a type not in
 /// the table above are left out and named in `notes`.

@@ -156,9 +156,7 @@ bool GmshWriter::has_place(const DataArray& array) {
     return false;
   }
   if (array.kind == ValueKind::real) return true;
-  constexpr std::int64_t kMostExact = std::int64_t{1} << std::numeric_limits<double>::digits;
-  if (!std::all_of(array.integers.begin(), array.integers.end(),
-                   [](std::int64_t x) { return x >= -kMostExact && x <= kMostExact; })) {
+  if (!fits_double(array)) {
     leave_out(array, "data of Gmsh are reals, which cannot hold its integers");
     return false;
   }

@@ -121,8 +121,10 @@ HexMesh build_hex_mesh(MeshData data, bool keep_isolated_vertices,
     for (int i = 0; i < kCorners; ++i) corners[i] = VertexHandle(cell[i]);
     mesh.add_cell(corners);
   }
-  for (const DataArray& array : data.point_data) detail::add_property<VertexTag>(mesh, array);
-  for (const DataArray& array : data.cell_data) detail::add_property<CellTag>(mesh, array);
+  for (const DataArray& array : data.point_data)
+    detail::add_property<VertexTag>(mesh, array, data.notes);
+  for (const DataArray& array : data.cell_data)
+    detail::add_property<CellTag>(mesh, array, data.notes);
   notes.insert(notes.end(), data.notes.begin(), data.notes.end());
   return mesh;
 }

@@ -71,6 +71,18 @@ TEST(VtkData, IntegersThatNeedItBecome64Bits) {
   EXPECT_EQ((named_property<CellTag, std::int64_t>(mesh, "n")[CellHandle(0)]), -2147483649);
 }
 
+TEST(VtkData, IntegersThatBecomeRoundedRealsAreNoted) {
+  ReadReport report;
+  const std::string field = "CELL_DATA 1\nFIELD FieldData 1\npair 2 1 vtktypeint64\n";
+  cube_with(field + "9007199254740992 -9007199254740992\n", &report);
+  EXPECT_THAT(report.notes, testing::IsEmpty());
+  const HexMesh mesh = cube_with(field + "9007199254740993 1\n", &report);
+  EXPECT_EQ((named_property<CellTag, Eigen::VectorXd>(mesh, "pair")[CellHandle(0)][0]), 0x1p53);
+  EXPECT_THAT(report.notes,
+              testing::ElementsAre("data array \"pair\" has several integers a place, which became "
+                                   "reals: those beyond 2^53 are rounded"));
+}
+
 // As VTK writes them.
 TEST(VtkData, NamesMayStartWithTheSignOfComments) {
   HexMesh expected = unit_cube();
