@@ -1,4 +1,3 @@
-#include <charconv>
 #include <cmath>
 
 #include "io/polygon_soup.h"
@@ -72,8 +71,7 @@ void ObjReader::read_point() {
   for (int k = 0; k < 3; ++k) {
     const std::string_view word = words_.size() > std::size_t(k) + 1 ? words_[k + 1] : "";
     const char* end = word.data() + word.size();
-    const auto [stop, error] = std::from_chars(word.data(), end, p[k]);
-    if (error != std::errc() || stop != end || !std::isfinite(p[k])) {
+    if (parse_number(word.data(), end, p[k]) != end || !std::isfinite(p[k])) {
       in_.fail(line_, "expected three finite coordinates of point " +
                           std::to_string(soup_.points.size() + 1) + ", found " +
                           (word.empty() ? "the end of the line" : quoted(word)));
@@ -95,8 +93,7 @@ void ObjReader::read_face() {
     const std::string_view word = words_[i].substr(0, words_[i].find('/'));
     std::int64_t number = 0;
     const char* end = word.data() + word.size();
-    const auto [stop, error] = std::from_chars(word.data(), end, number);
-    if (error != std::errc() || stop != end || number == 0 || number < -n_points ||
+    if (parse_number(word.data(), end, number) != end || number == 0 || number < -n_points ||
         number > kMostOfSurface) {
       in_.fail(line_, "expected the number of a point of face " +
                           std::to_string(soup_.polygons.size() + 1) + ", found " +

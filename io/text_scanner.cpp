@@ -52,31 +52,19 @@ std::int64_t TextScanner::read_count(const std::string& what, std::int64_t most)
   return n;
 }
 
-bool TextScanner::read(std::int64_t& value) {
+template <class T>
+bool TextScanner::read_number(T& value) {
   skip_blanks();
-  const char* begin = text_.data() + at_;
-  const char* end = text_.data() + text_.size();
-  if (begin != end && *begin == '+') ++begin;
-  const auto [stop, error] = std::from_chars(begin, end, value);
-  if (error != std::errc() || !ends_word(stop)) return false;
+  T number{};
+  const char* stop = parse_number(text_.data() + at_, text_.data() + text_.size(), number);
+  if (!stop || !ends_word(stop)) return false;
+  value = number;
   at_ = stop - text_.data();
   return true;
 }
 
-bool TextScanner::read(double& value) {
-  skip_blanks();
-  const char* begin = text_.data() + at_;
-  const char* end = text_.data() + text_.size();
-  if (begin != end && *begin == '+') ++begin;
-  const auto [stop, error] = std::from_chars(begin, end, value);
-  if (error == std::errc::invalid_argument || !ends_word(stop)) return false;
-  if (error == std::errc::result_out_of_range) {
-    // from_chars leaves the value alone here; strtod tells overflow from underflow.
-    value = std::strtod(std::string(begin, stop).c_str(), nullptr);
-  }
-  at_ = stop - text_.data();
-  return true;
-}
+bool TextScanner::read(std::int64_t& value) { return read_number(value); }
+bool TextScanner::read(double& value) { return read_number(value); }
 
 void TextScanner::fail(std::size_t offset, const std::string& message) const {
   const auto begin = text_.begin();
@@ -93,6 +81,23 @@ void TextScanner::fail_expected(const std::string& what) {
   }
   fail(where,
        "expected " + what + ", found " + (found.empty() ? std::string(end_) : quoted(found)));
+}
+
+const char* parse_number(const char* begin, const char* end, std::int64_t& value) {
+  if (begin != end && *begin == '+') ++begin;
+  const auto [stop, error] = std::from_chars(begin, end, value);
+  return error == std::errc() ? stop : nullptr;
+}
+
+const char* parse_number(const char* begin, const char* end, double& value) {
+  if (begin != end && *begin == '+') ++begin;
+  const auto [stop, error] = std::from_chars(begin, end, value);
+  if (error == std::errc::invalid_argument) return nullptr;
+  if (error == std::errc::result_out_of_range) {
+    // from_chars leaves the value alone here; strtod tells overflow from underflow.
+    value = std::strtod(std::string(begin, stop).c_str(), nullptr);
+  }
+  return stop;
 }
 
 std::string lower_case(std::string_view word) {

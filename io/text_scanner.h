@@ -77,6 +77,8 @@ class TextScanner {
       at_ = std::min(text_.find('\n', at_), text_.size() - 1);
     }
   }
+  template <class T>
+  bool read_number(T& value);
   bool ends_word(const char* p) const { return p == text_.data() + text_.size() || is_blank(*p); }
 
   std::string_view text_;
@@ -84,6 +86,11 @@ class TextScanner {
   const char* end_;
   std::size_t at_ = 0;
 };
+
+/// Reads the number that [begin, end) starts with, as TextScanner::read. \return  where it ends, or
+/// null, which leaves the value alone
+const char* parse_number(const char* begin, const char* end, std::int64_t& value);
+const char* parse_number(const char* begin, const char* end, double& value);
 
 /// A copy in lower case (ASCII letters only).
 std::string lower_case(std::string_view word);

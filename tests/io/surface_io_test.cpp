@@ -162,6 +162,27 @@ TEST(SurfaceFile, CoordinatesKeepTheirDigits) {
       read_surface_mesh_text("v " + row + "v 0 1 0\nv 0 0 1\nf 1 2 3\n", "a.obj").points(0, 0), x);
 }
 
+TEST(SurfaceFile, NumbersOfAnyLayoutInEveryText) {
+  const std::string points[] = {"+1 0 1e-330\n", "0 1. 0\n", ".5 0 +1E0\n"};
+  const std::string list = points[0] + points[1] + points[2];
+  std::string obj, stl = "solid\nfacet normal 0 0 1\nouter loop\n";
+  for (const std::string& point : points) obj += "v " + point, stl += "vertex " + point;
+  for (const auto& [name, content] :
+       {std::pair<std::string, std::string>("x.obj", obj + "f +1 2 -1\n"),
+        {"x.off", "OFF\n3 1 0\n" + list + "3 0 +1 2\n"},
+        {"x.ply",
+         "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+         "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+         "end_header\n" +
+             list + "3 0 +1 2\n"},
+        {"x.stl", stl + "endloop\nendfacet\nendsolid\n"}}) {
+    SCOPED_TRACE(name);
+    Eigen::Matrix3d expected;
+    expected << 1, 0, 0.5, 0, 1, 0, 0, 0, 1;
+    EXPECT_EQ(read_surface_mesh_text(content, name).points, expected);
+  }
+}
+
 TEST(SurfaceFile, LayoutsOfObj) {
   const SurfaceMesh surface = read_surface_mesh_text(
       "# a comment\r\nmtllib x.mtl\r\no thing\r\nv 0 0 0 1.0\r\nv 1 0 0 0.5 0.5 0.5\r\nvt 0 0\r\n"
