@@ -89,16 +89,15 @@ class StlTextReader {
 
 }  // namespace
 
-// By the size, as the header of a binary file may begin like a text.
+// The header of a binary file may begin like a text; but the number of triangles at its end, if it is
+// below 2^24, has a byte that no text has.
 PolygonSoup read_stl(std::string_view text, const std::string& path) {
-  const bool has_header = text.size() >= kHeader;
-  const std::size_t n = has_header ? load_unsigned(text.data() + kHeader - 4, 4) : 0;
-  if (has_header && text.size() == kHeader + kTriangle * n) return read_binary(text, path);
-  if (lower_case(TextScanner(text, path).peek()) == "solid") {
-    return StlTextReader(text, path).read();
-  }
-  throw FormatError(path + ": expected a text that starts with solid, or " +
-                    std::to_string(kHeader + kTriangle * n) + " bytes of " + std::to_string(n) +
+  if (text.size() < kHeader) return StlTextReader(text, path).read();
+  const std::string_view count = text.substr(kHeader - 4, 4);
+  const std::size_t n = load_unsigned(count.data(), 4), size = kHeader + kTriangle * n;
+  if (text.size() == size) return read_binary(text, path);
+  if (count.find('\0') == count.npos) return StlTextReader(text, path).read();
+  throw FormatError(path + ": expected " + std::to_string(size) + " bytes of " + std::to_string(n) +
                     " triangles, found " + std::to_string(text.size()) + " bytes");
 }
 

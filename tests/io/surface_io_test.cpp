@@ -248,11 +248,13 @@ TEST(SurfaceFile, ErrorsNameThePlace) {
             "x.stl:15: expected facet, found the end of the file");
   EXPECT_EQ(error_of("x.stl", "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 x\n"),
             "x.stl:4: expected a finite coordinate of triangle 0, found \"x\"");
-  std::string cut = binary_stl("");
-  cut.pop_back();
-  EXPECT_EQ(error_of("x.stl", cut),
-            "x.stl: expected a text that starts with solid, or 184 bytes of 2 triangles, found 183 "
-            "bytes");
+  for (const char* header : {"", "solid x"}) {
+    const std::string intact = binary_stl(header);
+    const std::string expected = "x.stl: expected 184 bytes of 2 triangles, found ";
+    EXPECT_EQ(error_of("x.stl", intact.substr(0, 183)), expected + "183 bytes");
+    EXPECT_EQ(error_of("x.stl", intact + "\n"), expected + "185 bytes");
+  }
+  EXPECT_EQ(error_of("x.stl", "hello"), "x.stl:1: expected solid, found \"hello\"");
   EXPECT_EQ(error_of("x.vtk", kOff), "x.vtk: expected a surface: .obj, .off, .ply or .stl");
   EXPECT_THROW(read_surface_mesh("/no/such/file.off"), FormatError);
 }
