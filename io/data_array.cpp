@@ -155,6 +155,13 @@ std::vector<DataArray> property_arrays(const HexMesh& mesh, std::vector<std::str
   return result;
 }
 
+std::vector<DataArray>::iterator find_integers(std::vector<DataArray>& arrays,
+                                               std::string_view name) {
+  return std::find_if(arrays.begin(), arrays.end(), [&](const DataArray& array) {
+    return array.name == name && array.kind == ValueKind::integer && array.components == 1;
+  });
+}
+
 std::string left_out(const std::string& property, const std::string& reason) {
   return "property \"" + property + "\" was left out: " + reason;
 }

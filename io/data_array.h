@@ -14,6 +14,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "ovm/hex_mesh.h"
@@ -49,6 +50,10 @@ void add_property(HexMesh& mesh, const DataArray& array, std::vector<std::string
 /// the table above are left out and named in `notes`.
 template <class Tag>
 std::vector<DataArray> property_arrays(const HexMesh& mesh, std::vector<std::string>& notes);
+
+/// The array of that name if it has one integer a place, else the end.
+std::vector<DataArray>::iterator find_integers(std::vector<DataArray>& arrays,
+                                               std::string_view name);
 
 /// The note of a property that a file does not get.
 /// \param reason  a clause without a full stop

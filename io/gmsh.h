@@ -27,8 +27,9 @@ MeshData read_gmsh(std::string_view text, const std::string& path);
 bool is_gmsh(std::string_view text);
 
 /// As write_vtk_legacy. Nodes and elements are numbered from 1 in order of their handles. Data of
-/// Gmsh are reals: integers and bits are written as such, with a note. Without "gmsh:geometrical"
-/// each physical group is a volume of its own, for Gmsh puts whole volumes into groups.
+/// Gmsh are reals: integers and bits are written as such, with a note. Without "gmsh:physical" the
+/// references of Medit are the physical groups. Without "gmsh:geometrical" each physical group is a
+/// volume of its own, for Gmsh puts whole volumes into groups.
 void write_gmsh(const HexMesh& mesh, const WriteOptions& options, std::string& out,
                 std::vector<std::string>& notes);
 

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "io/gmsh.h"
+#include "io/medit.h"
 #include "io/number_writer.h"
 
 namespace hexweft {
@@ -58,14 +59,12 @@ class GmshWriter {
 
 // The tags of that name, which leave the arrays, or none; those that no tag can be stay data.
 std::vector<std::int64_t> take_tags(std::vector<DataArray>& arrays, const char* name) {
-  const auto it = std::find_if(arrays.begin(), arrays.end(), [&](const DataArray& array) {
-    const auto is_tag = [](std::int64_t x) {
-      return x >= 0 && x <= std::numeric_limits<std::int32_t>::max();
-    };
-    return array.name == name && array.kind == ValueKind::integer && array.components == 1 &&
-           std::all_of(array.integers.begin(), array.integers.end(), is_tag);
-  });
-  if (it == arrays.end()) return {};
+  const auto it = find_integers(arrays, name);
+  const auto is_tag = [](std::int64_t x) {
+    return x >= 0 && x <= std::numeric_limits<std::int32_t>::max();
+  };
+  if (it == arrays.end() || !std::all_of(it->integers.begin(), it->integers.end(), is_tag))
+    return {};
   std::vector<std::int64_t> tags = std::move(it->integers);
   arrays.erase(it);
   return tags;
@@ -96,6 +95,14 @@ void GmshWriter::write_nodes(const HexMesh& mesh) {
 // Gmsh puts whole volumes into groups: where volumes are not told, each group becomes one.
 GmshWriter::Groups GmshWriter::take_groups(std::vector<DataArray>& of_cells) {
   Groups groups{take_tags(of_cells, kGmshPhysical), take_tags(of_cells, kGmshGeometrical)};
+  const auto is_physical = [](const DataArray& array) { return array.name == kGmshPhysical; };
+  if (groups.physical.empty() && std::none_of(of_cells.begin(), of_cells.end(), is_physical)) {
+    groups.physical = take_tags(of_cells, kMeditReference);
+    if (!groups.physical.empty()) {
+      notes_.push_back("property \"" + std::string(kMeditReference) +
+                       "\" of cells was written as their physical groups");
+    }
+  }
   if (groups.physical.empty()) return groups;
   if (groups.geometrical.empty()) {
     groups.geometrical = groups.physical;

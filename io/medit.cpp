@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "io/gmsh.h"
 #include "io/number_text.h"
 #include "io/text_scanner.h"
 
@@ -198,20 +199,35 @@ void MeditReader::add_references(std::vector<DataArray>& arrays,
   arrays.push_back(std::move(array));
 }
 
-// The references, or zeros; other properties have no place in the file.
+// The references, those of Gmsh if there are no others, or zeros; other properties have no place in
+// the file.
 template <class Tag>
 std::vector<std::int64_t> references(const HexMesh& mesh, std::size_t n,
                                      std::vector<std::string>& notes) {
   std::vector<std::int64_t> result(n, 0);
-  for (DataArray& array : property_arrays<Tag>(mesh, notes)) {
-    if (array.name == kMeditReference && array.kind == ValueKind::integer &&
-        array.components == 1) {
-      result = std::move(array.integers);
-    } else {
-      notes.push_back(left_out(array.name, "Medit has no place for it"));
+  std::vector<DataArray> arrays = property_arrays<Tag>(mesh, notes);
+  auto it = find_integers(arrays, kMeditReference);
+  if (it == arrays.end()) {
+    it = find_integers(arrays, kGmshPhysical);
+    if (it != arrays.end()) {
+      notes.push_back("property \"" + it->name + "\" was written as references");
     }
   }
+  if (it != arrays.end()) {
+    result = std::move(it->integers);
+    arrays.erase(it);
+  }
+  for (const DataArray& array : arrays) {
+    notes.push_back(left_out(array.name, "Medit has no place for it"));
+  }
   return result;
+}
+
+// Versions below 4 have integers of 32 bits.
+bool need_version_4(const std::vector<std::int64_t>& references) {
+  using Limits = std::numeric_limits<std::int32_t>;
+  return std::any_of(references.begin(), references.end(),
+                     [](std::int64_t r) { return r < Limits::min() || r > Limits::max(); });
 }
 
 }  // namespace
@@ -228,8 +244,12 @@ void write_medit(const HexMesh& mesh, const WriteOptions& options, std::string& 
                  std::vector<std::string>& notes) {
   const auto vertex_refs = references<VertexTag>(mesh, mesh.n_vertices(), notes);
   const auto cell_refs = references<CellTag>(mesh, mesh.n_cells(), notes);
-  out +=
-      "MeshVersionFormatted 2\nDimension 3\nVertices\n" + std::to_string(mesh.n_vertices()) + '\n';
+  const bool is_wide = need_version_4(vertex_refs) || need_version_4(cell_refs);
+  if (is_wide) {
+    notes.push_back("there are references beyond 32 bits: the file has version 4 of Medit, not 2");
+  }
+  out += is_wide ? "MeshVersionFormatted 4\n" : "MeshVersionFormatted 2\n";
+  out += "Dimension 3\nVertices\n" + std::to_string(mesh.n_vertices()) + '\n';
   int row = 0;
   for (VertexHandle v : mesh.vertices()) {
     for (double x : mesh.point(v)) {

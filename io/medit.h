@@ -4,7 +4,9 @@
 /// Read: Vertices and Hexahedra; their references become the named int property "medit:ref" of
 /// vertices and of cells where any is not 0. Other solid cells are an error; every other section, a
 /// word and the numbers up to the next one, is left out with a note. Written: the same two sections,
-/// version 2. Source: P. Frey, "MEDIT: an interactive mesh visualization software", INRIA RT-0253.
+/// version 2, or 4 where references need more than 32 bits; without "medit:ref" the references are
+/// those of "gmsh:physical" (gmsh.h).
+/// Source: P. Frey, "MEDIT: an interactive mesh visualization software", INRIA RT-0253.
 #pragma once
 
 #include <string>

@@ -114,6 +114,43 @@ TEST(RoundTrip, ReferencesOfMedit) {
   expect_same_mesh(mesh, read_hex_mesh_text(write_hex_mesh_text(mesh, {.format = "medit"}), "x"));
 }
 
+TEST(RoundTrip, ReferencesOfMeditAreGroupsOfGmsh) {
+  const std::pair<const char*, const char*> ways[] = {{"medit:ref", "gmsh"},
+                                                      {"gmsh:physical", "medit"}};
+  for (const auto& [name, format] : ways) {
+    SCOPED_TRACE(name);
+    HexMesh mesh = shaken_grid(2), expected = mesh;
+    const std::string other_name = format == std::string("gmsh") ? "gmsh:physical" : "medit:ref";
+    auto mine = named_property<CellTag, int>(mesh, name, 0);
+    auto other = named_property<CellTag, int>(expected, other_name, 0);
+    for (CellHandle c : mesh.cells()) mine[c] = other[c] = c.idx / 3;
+    WriteReport report;
+    const std::string text = write_hex_mesh_text(mesh, {.format = format}, &report);
+    EXPECT_THAT(report.notes, testing::Contains(testing::HasSubstr(name)));
+    HexMesh read = read_hex_mesh_text(text, "x");
+    property_registry<CellTag>(read)->erase("gmsh:geometrical");
+    expect_same_mesh(read, expected);
+    // Where both are there, each format has its own.
+    auto both = named_property<CellTag, int>(mesh, other_name, 7);
+    const HexMesh again = read_hex_mesh_text(write_hex_mesh_text(mesh, {.format = format}), "x");
+    EXPECT_EQ((named_property<CellTag, int>(again, other_name)[CellHandle(7)]), 7);
+  }
+}
+
+TEST(RoundTrip, ReferencesOfMeditBeyond32Bits) {
+  HexMesh mesh = unit_cube();
+  auto of_cell = named_property<CellTag, std::int64_t>(mesh, "medit:ref", 2147483647);
+  WriteReport report;
+  std::string text = write_hex_mesh_text(mesh, {.format = "medit"}, &report);
+  EXPECT_TRUE(text.starts_with("MeshVersionFormatted 2\n"));
+  EXPECT_THAT(report.notes, testing::IsEmpty());
+  of_cell[CellHandle(0)] = 2147483648;
+  text = write_hex_mesh_text(mesh, {.format = "medit"}, &report);
+  EXPECT_TRUE(text.starts_with("MeshVersionFormatted 4\n"));
+  EXPECT_THAT(report.notes, testing::ElementsAre(testing::HasSubstr("32 bits")));
+  expect_same_mesh(read_hex_mesh_text(text, "x"), mesh);
+}
+
 TEST(RoundTrip, MeditSaysWhatItLeavesOut) {
   HexMesh mesh = unit_cube();
   named_property<CellTag, double>(mesh, "quality", 1.0);
