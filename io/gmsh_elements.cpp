@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 
 #include "io/gmsh.h"
 #include "ovm/hex_numbering.h"
@@ -11,8 +10,6 @@ namespace hexweft::detail {
 namespace {
 
 constexpr std::int64_t kHexahedron = 5;
-constexpr int kMostCells =
-    std::numeric_limits<int>::max() / 12;  // 12 edge slots a cell, int indices
 
 // Nodes of points, lines, triangles and quadrangles of orders 1 to 10, by type; 0: another type.
 constexpr std::array<int, 67> kFlatNodes{

@@ -1,19 +1,15 @@
 #include "io/gmsh_nodes.h"
 
-#include <limits>
-
 namespace hexweft::detail {
 namespace {
 
-constexpr int kMostNodes = std::numeric_limits<int>::max() / 2;
-
-std::string a_count() { return "the number of nodes in [0, " + std::to_string(kMostNodes) + "]"; }
+std::string a_count() { return "the number of nodes in [0, " + std::to_string(kMostPoints) + "]"; }
 
 }  // namespace
 
 void GmshNodes::read(GmshValues& in, bool parametric) {
   if (in.version() == GmshVersion::v2) {
-    const std::int64_t n = in.read_int({0, kMostNodes}, a_count);
+    const std::int64_t n = in.read_int({0, kMostPoints}, a_count);
     in.begin_binary();
     read_rows(in, n, parametric);
   } else {
@@ -44,7 +40,7 @@ void GmshNodes::read_rows(GmshValues& in, std::int64_t n, bool parametric) {
 // From version 4 on: blocks of nodes of one volume, surface, curve or point.
 void GmshNodes::read_blocks(GmshValues& in) {
   const std::int64_t n_blocks = in.read_size(kGmshSizes, "the number of blocks of nodes");
-  const std::int64_t n = in.read_size({0, kMostNodes}, a_count);
+  const std::int64_t n = in.read_size({0, kMostPoints}, a_count);
   if (in.version() == GmshVersion::v41) {
     in.read_size(kGmshSizes, "the least tag of a node");
     in.read_size(kGmshSizes, "the greatest tag of a node");

@@ -112,7 +112,7 @@ void MeditReader::read_vertices() {
   in_.next();
   if (have_vertices_) in_.fail(section_, "Vertices appears twice");
   have_vertices_ = true;
-  const std::int64_t n = read_count("Vertices", std::numeric_limits<int>::max() / 2);
+  const std::int64_t n = read_count("Vertices", kMostPoints);
   data_.points.reserve(in_.room_for(n, 4));
   point_references_.reserve(in_.room_for(n, 4));
   for (std::int64_t i = 0; i < n; ++i) {
@@ -132,7 +132,7 @@ void MeditReader::read_hexahedra() {
   in_.next();
   if (have_hexahedra_) in_.fail(section_, "Hexahedra appears twice");
   have_hexahedra_ = true;
-  const std::int64_t n = read_count("Hexahedra", std::numeric_limits<int>::max() / 12);
+  const std::int64_t n = read_count("Hexahedra", kMostCells);
   first_hexahedron_ = in_.offset();
   data_.cells.reserve(in_.room_for(n, 9));
   cell_references_.reserve(in_.room_for(n, 9));

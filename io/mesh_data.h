@@ -4,6 +4,7 @@
 
 #include <array>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,11 @@
 #include "ovm/hex_mesh.h"
 
 namespace hexweft {
+
+/// The most cells a mesh can hold, and the most points, edges or faces: handles are ints, a cell has 12
+/// slots of edges, an edge or a face two halves.
+inline constexpr int kMostCells = std::numeric_limits<int>::max() / 12;
+inline constexpr int kMostPoints = std::numeric_limits<int>::max() / 2;
 
 struct MeshData {
   std::vector<Eigen::Vector3d> points;

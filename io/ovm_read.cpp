@@ -2,12 +2,12 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <limits>
 
 #include "io/ovm.h"
 #include "io/ovm_topology.h"
 #include "io/ovm_types.h"
 #include "io/text_scanner.h"
+#include "ovm/hex_numbering.h"
 
 namespace hexweft {
 namespace {
@@ -33,7 +33,7 @@ class OvmReader {
  private:
   void read_header();
   void read_vertices();
-  std::int64_t read_count(const char* section);
+  std::int64_t read_count(const char* section, int most);
   template <std::size_t n>
   std::size_t read_rows(const char* section, const char* what, const char* parts,
                         std::size_t n_parts, std::vector<std::array<int, n>>& rows);
@@ -68,17 +68,16 @@ void OvmReader::read_header() {
   in_.rest_of_line();
 }
 
-std::int64_t OvmReader::read_count(const char* section) {
-  constexpr std::int64_t kMost = std::numeric_limits<int>::max() / 12;
+std::int64_t OvmReader::read_count(const char* section, int most) {
   if (lower_case(in_.peek()) != lower_case(section)) in_.fail_expected(section);
   in_.rest_of_line();
-  const std::int64_t n = in_.read_count("a number of " + lower_case(section), kMost);
+  const std::int64_t n = in_.read_count("a number of " + lower_case(section), most);
   in_.rest_of_line();
   return n;
 }
 
 void OvmReader::read_vertices() {
-  const std::int64_t n = read_count("Vertices");
+  const std::int64_t n = read_count("Vertices", kMostPoints);
   data_.points.reserve(in_.room_for(n, 3));
   for (std::int64_t i = 0; i < n; ++i) {
     const std::size_t start = start_of_row();
@@ -103,7 +102,8 @@ void OvmReader::read_vertices() {
 template <std::size_t n>
 std::size_t OvmReader::read_rows(const char* section, const char* what, const char* parts,
                                  std::size_t n_parts, std::vector<std::array<int, n>>& rows) {
-  const std::int64_t count = read_count(section);
+  constexpr int kMost = n == kSides ? kMostCells : kMostPoints;
+  const std::int64_t count = read_count(section, kMost);
   rows.reserve(in_.room_for(count, n));
   const std::size_t first = in_.offset();
   for (std::int64_t i = 0; i < count; ++i) {

@@ -71,7 +71,6 @@ class OvmbReader {
 };
 
 void OvmbReader::read_header() {
-  constexpr std::uint64_t kMost = std::numeric_limits<int>::max() / 12;
   if (in_.take(kOvmbMagic.size(), "the start of an .ovmb file") != kOvmbMagic) {
     in_.fail(0, "expected the start of an .ovmb file, found something else");
   }
@@ -82,7 +81,10 @@ void OvmbReader::read_header() {
   const std::uint64_t topology = in_.number(1, "the kind of cells", 0, kOvmbHexahedral);
   if (topology == kOvmbTetrahedral) in_.fail(at, "expected hexahedra, found tetrahedra announced");
   in_.zeros(4, "a reserved byte");
-  for (std::uint64_t& n : announced_) n = in_.number(8, "a number of elements", 0, kMost);
+  for (std::uint64_t& n : announced_) {
+    const int most = &n == &announced_.back() ? kMostCells : kMostPoints;
+    n = in_.number(8, "a number of elements", 0, most);
+  }
 }
 
 void OvmbReader::read_chunk() {

@@ -3,7 +3,7 @@
 namespace hexweft::detail {
 
 void VtkCells::read_corners(TextScanner& in, bool binary, std::size_t section) {
-  const std::int64_t n = in.read_count("a number of cells", kMostVtkCells);
+  const std::int64_t n = in.read_count("a number of cells", kMostCells);
   const std::int64_t size = in.read_count("the size of the cell list", std::int64_t{1} << 40);
   in.rest_of_line();
   corner_block_ = {"CELLS", section, in.offset(), binary};
@@ -75,7 +75,7 @@ void VtkCells::read_offsets(TextScanner& in, std::int64_t n_offsets, std::int64_
 }
 
 void VtkCells::read_types(TextScanner& in, bool binary, std::size_t section, MeshData& data) {
-  const std::int64_t n = in.read_count("a number of cells", kMostVtkCells);
+  const std::int64_t n = in.read_count("a number of cells", kMostCells);
   if (n != static_cast<std::int64_t>(size())) {
     in.fail(section, "expected types of " + std::to_string(size()) + " cells, found " +
                          std::to_string(n) + " announced");

@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -12,9 +11,6 @@
 
 namespace hexweft::detail {
 
-/// More cells no mesh holds: each has 12 edge slots, and indices are ints.
-inline constexpr int kMostVtkCells = std::numeric_limits<int>::max() / 12;
-inline constexpr int kMostVtkPoints = std::numeric_limits<int>::max() / 2;
 inline constexpr int kVtkHexahedron = 12;
 
 /// The points of coordinates x, y, z, x, y and so on, of integers or reals.

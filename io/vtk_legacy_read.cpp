@@ -106,7 +106,7 @@ void VtkReader::read_dataset() {
 
 void VtkReader::read_points() {
   once(have_points_, "POINTS");
-  const std::int64_t n = in_.read_count("a number of points", kMostVtkPoints);
+  const std::int64_t n = in_.read_count("a number of points", kMostPoints);
   const auto type = find_vtk_type(in_.peek());
   if (!type || type->kind == ValueKind::bit) in_.fail_expected("a type of coordinates");
   in_.rest_of_line();

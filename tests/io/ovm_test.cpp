@@ -106,7 +106,13 @@ TEST(Ovm, ErrorsNameTheLine) {
   EXPECT_EQ(error_of("Edges\n"), "in.ovm:1: expected OVM ASCII, found \"Edges\"");
   EXPECT_EQ(error_of("OVM ASCII\nEdges\n"), "in.ovm:2: expected Vertices, found \"Edges\"");
   EXPECT_EQ(error_of("Vertices\n-1\n"),
-            "in.ovm:2: expected a number of vertices in [0, 178956970], found \"-1\"");
+            "in.ovm:2: expected a number of vertices in [0, 1073741823], found \"-1\"");
+  EXPECT_EQ(
+      error_of("Vertices\n1073741823\n0 0 0\n"),
+      "in.ovm:3: expected a finite coordinate of vertex 1 of 1073741823, found the end of the "
+      "file");
+  EXPECT_EQ(error_of("Vertices\n0\nEdges\n0\nFaces\n0\nPolyhedra\n178956971\n"),
+            "in.ovm:8: expected a number of polyhedra in [0, 178956970], found \"178956971\"");
   EXPECT_EQ(error_of("Vertices\n2\n0 0 0\n0 nan 0\n"),
             "in.ovm:4: expected a finite coordinate of vertex 1 of 2, found \"nan\"");
   EXPECT_EQ(error_of("Vertices\n2\n0 0\n0 0 0\n"),

@@ -96,6 +96,10 @@ TEST(Ovmb, ErrorsNameTheByte) {
             "in.ovmb: byte 0: expected the start of an .ovmb file, found something else");
   EXPECT_EQ(error_of(ovmb_header(8, 12, 6, 1, 1)),
             "in.ovmb: byte 11: expected hexahedra, found tetrahedra announced");
+  EXPECT_EQ(error_of(ovmb_header(8, 1073741824, 6, 1)),
+            "in.ovmb: byte 24: expected a number of elements in [0, 1073741823], found 1073741824");
+  EXPECT_EQ(error_of(ovmb_header(1073741823, 1073741823, 1073741823, 178956971)),
+            "in.ovmb: byte 40: expected a number of elements in [0, 178956970], found 178956971");
   EXPECT_EQ(error_of(kHeader + points),
             "in.ovmb: byte 272: expected another chunk; the last is \"EOF \" (4 bytes), found 0 "
             "bytes");
