@@ -189,9 +189,8 @@ void Program::check_paths() const {
   if (output_path_ == "-" && json_path_ == "-") {
     throw InputError("only one of --output and --json can be standard output");
   }
-  if (is_same_file(json_path_, output_path_) || is_same_file(json_path_, input_path_)) {
-    throw InputError("--json = " + json_path_ + ", expected another file than the mesh");
-  }
+  expect_no_json(output_path_, "the mesh");
+  expect_no_json(input_path_, "the mesh");
   if (!output_path_.empty()) check_hex_mesh_output(output_path_, write_options_);
   if (wants_json()) check_writable(json_path_);
 }
@@ -210,6 +209,11 @@ void Program::expect_apart(const std::string& option, const std::string& path) c
 void Program::expect_not_written(const std::string& option, const std::string& path) const {
   if (is_output(path))
     throw InputError(option + " = " + path + ", expected another file than the outputs");
+}
+
+void Program::expect_no_json(const std::string& path, const std::string& what) const {
+  if (is_same_file(json_path_, path))
+    throw InputError("--json = " + json_path_ + ", expected another file than " + what);
 }
 
 int Program::run(int argc, char** argv, const std::function<int()>& body) {
@@ -263,8 +267,7 @@ HexMesh Program::read_valid_mesh() {
 }
 
 ReferenceSurface Program::read_surface(const std::string& path, const FeatureOptions& features) {
-  if (is_same_file(json_path_, path))
-    throw InputError("--json = " + json_path_ + ", expected another file than the surface");
+  expect_no_json(path, "the surface");
   std::vector<std::string> notes;
   ReferenceSurface surface = read_surface_input(path, notes, features);
   for (const std::string& text : notes) note(text);

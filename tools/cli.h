@@ -75,6 +75,8 @@ class Program {
   void expect_apart(const std::string& option, const std::string& path) const;
   /// \throws InputError if a further file that is read is one of --output and --json
   void expect_not_written(const std::string& option, const std::string& path) const;
+  /// \throws InputError if --json is this file; `what` names it: "the surface"
+  void expect_no_json(const std::string& path, const std::string& what) const;
 
  private:
   void check_paths() const;

@@ -28,12 +28,23 @@ struct Request {
   std::vector<std::string> options;  // of hexweft-simplify
   int jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   bool again = false, all = false;
+
+  fs::path published() const { return fs::path(folder) / "published.csv"; }
+  fs::path csv() const { return fs::path(output) / "corpus.csv"; }
+  fs::path markdown() const { return fs::path(output) / "corpus.md"; }
 };
 
 // Subfolders of this name choose the weights of the ranking.
 std::string preset_of(const fs::path& folder) {
   const bool polycube = std::find(folder.begin(), folder.end(), "polycube") != folder.end();
   return polycube ? "polycube" : "octree";
+}
+
+// A preset that is passed on goes before that of the folder.
+bool has_preset(const std::vector<std::string>& options) {
+  return std::any_of(options.begin(), options.end(), [](const std::string& option) {
+    return option == "--preset" || option.starts_with("--preset=");
+  });
 }
 
 // The meshes below a folder, in order of their paths. Where there is a table of published results,
@@ -53,7 +64,7 @@ std::vector<CorpusJob> find_jobs(const Request& request, const cli::PublishedTab
     if (!published.empty() && !request.all && !published.has_corpus(corpus)) continue;
     CorpusJob job{corpus, it->path().stem().string(), it->path(), {}, {}};
     job.stem = fs::path(request.output) / inside.parent_path() / job.mesh;
-    job.options = {"--preset", preset_of(inside.parent_path())};
+    if (!has_preset(request.options)) job.options = {"--preset", preset_of(inside.parent_path())};
     job.options.insert(job.options.end(), request.options.begin(), request.options.end());
     jobs.push_back(std::move(job));
   }
@@ -68,6 +79,28 @@ std::vector<CorpusJob> find_jobs(const Request& request, const cli::PublishedTab
     throw InputError(job.input.string() + ": another mesh of the folder has the same name");
   }
   return jobs;
+}
+
+// \throws InputError if the report would take the place of a file that is read or written here
+void check_json(const cli::Program& program, const Request& request,
+                const std::vector<CorpusJob>& jobs) {
+  program.expect_no_json(request.published().string(), "published.csv");
+  for (const CorpusJob& job : jobs) program.expect_no_json(job.input.string(), "the meshes");
+  for (const fs::path& table : {request.csv(), request.markdown()})
+    program.expect_no_json(table.string(), "the tables");
+  for (const CorpusJob& job : jobs) {
+    for (const fs::path& file : cli::files_of(job))
+      program.expect_no_json(file.string(), "the outputs");
+  }
+}
+
+// \throws FormatError
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  const std::string reason = error ? error.message() : "it is no folder";
+  if (error || !fs::is_directory(folder, error))
+    throw FormatError(folder.string() + ": cannot be written: " + reason);
 }
 
 std::string line_of(const CorpusRow& row) {
@@ -124,7 +157,7 @@ class Runner {
       CorpusRow row = request_.again ? CorpusRow() : cli::find_row(job, key);
       const bool is_new = row.is_null();
       if (is_new) {
-        fs::create_directories(job.stem.parent_path());
+        make_folder(job.stem.parent_path());
         row = cli::run_job(job, programs_, key);
         if (stop.stop_requested()) return;
         cli::keep_row(job, row);
@@ -158,12 +191,17 @@ int run(cli::Program& program, const Request& request) {
   if (!fs::is_directory(request.folder)) {
     throw FormatError(request.folder + ": cannot be read: it is no folder");
   }
-  const fs::path table = fs::path(request.folder) / "published.csv";
-  const cli::PublishedTable published =
-      fs::exists(table) ? cli::read_published_table(table) : cli::PublishedTable{};
+  const cli::PublishedTable published = fs::exists(request.published())
+                                            ? cli::read_published_table(request.published())
+                                            : cli::PublishedTable{};
   std::vector<CorpusJob> jobs = find_jobs(request, published);
-  if (jobs.empty()) throw InputError(request.folder + ": no meshes are in it");
-  fs::create_directories(request.output);
+  if (jobs.empty()) {
+    const bool all = request.all || published.empty();
+    throw InputError(request.folder + ": no meshes are in " +
+                     (all ? "it" : "the folders that its published.csv names (--all: in others)"));
+  }
+  check_json(program, request, jobs);
+  make_folder(request.output);
   std::stop_source interrupt;
   const cli::SignalWatch watch(interrupt);
   const std::vector<CorpusRow> rows =
@@ -171,17 +209,17 @@ int run(cli::Program& program, const Request& request) {
   if (interrupt.stop_requested()) {
     return program.fail(cli::kFailed, "interrupted: the same command goes on from here");
   }
-  const fs::path csv = fs::path(request.output) / "corpus.csv",
-                 markdown = fs::path(request.output) / "corpus.md";
-  write_file(csv, cli::csv_table(rows, published));
-  write_file(markdown, cli::markdown_table(rows, published));
+  write_file(request.csv(), cli::csv_table(rows, published));
+  write_file(request.markdown(), cli::markdown_table(rows, published));
   program.write_json(rows);
-  const auto failed = std::count_if(
-      rows.begin(), rows.end(), [](const CorpusRow& row) { return row.at("status") != "done"; });
-  program.say(fmt::format("{} meshes, {} failed: {} and {}", rows.size(), failed, csv.string(),
-                          markdown.string()));
-  if (failed == 0) return cli::kDone;
-  return program.fail(cli::kFailed, fmt::format("{} of {} meshes failed", failed, rows.size()));
+  const auto has_failed = [](const CorpusRow& row) { return row.at("status") != "done"; };
+  const auto n_failed = std::count_if(rows.begin(), rows.end(), has_failed);
+  program.say(fmt::format("{} meshes, {} failed: {} and {}", rows.size(), n_failed,
+                          request.csv().string(), request.markdown().string()));
+  if (n_failed == 0) return cli::kDone;
+  return program.fail(cli::kFailed,
+                      fmt::format("{} of {} meshes failed, first {}", n_failed, rows.size(),
+                                  line_of(*std::find_if(rows.begin(), rows.end(), has_failed))));
 }
 
 }  // namespace

@@ -96,6 +96,10 @@ void fill_row(CorpusRow& row, const CorpusJob& job, const CorpusPrograms& progra
 
 }  // namespace
 
+std::array<fs::path, 3> files_of(const CorpusJob& job) {
+  return {with(job.stem, ".vtk"), with(job.stem, ".report.json"), with(job.stem, ".row.json")};
+}
+
 std::string key_of(const CorpusJob& job, const CorpusPrograms& programs) {
   std::string key = stamp(job.input);
   for (const std::string& program : {programs.simplify, programs.info, programs.distance})
@@ -111,16 +115,14 @@ CorpusRow find_row(const CorpusJob& job, const std::string& key) {
   CorpusRow row = CorpusRow::parse(read_file(file), nullptr, false);
   if (!row.is_object() || row.value("key", "") != key) return nullptr;
   const bool done = row.value("status", "") == "done";
-  return done && !fs::exists(with(job.stem, ".vtk"), error) ? nullptr : row;
+  return done && fs::exists(with(job.stem, ".vtk"), error) ? row : nullptr;
 }
 
 CorpusRow run_job(const CorpusJob& job, const CorpusPrograms& programs, const std::string& key) {
   CorpusRow row = {{"corpus", job.corpus}, {"mesh", job.mesh}, {"status", "done"}};
   std::error_code error;
   // What an earlier run left must not stand beside a row that says "failed".
-  for (const char* ending : {".vtk", ".report.json", ".row.json"}) {
-    fs::remove(with(job.stem, ending), error);
-  }
+  for (const fs::path& file : files_of(job)) fs::remove(file, error);
   try {
     fill_row(row, job, programs);
   } catch (const std::exception& problem) {

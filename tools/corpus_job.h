@@ -3,6 +3,7 @@
 /// hexweft-info and hexweft-distance.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -25,6 +26,9 @@ struct CorpusJob {
   std::vector<std::string> options;  ///< of hexweft-simplify
 };
 
+/// STEM.vtk, STEM.report.json and STEM.row.json.
+std::array<std::filesystem::path, 3> files_of(const CorpusJob& job);
+
 /// A row of the table, which is also what STEM.row.json holds: "corpus", "mesh", "status" ("done"
 /// or "failed: ..."), the figures that are known, and the "key".
 using CorpusRow = nlohmann::ordered_json;
@@ -32,7 +36,8 @@ using CorpusRow = nlohmann::ordered_json;
 /// What a row depends on: the input file, the options and the program, by path, size and time.
 std::string key_of(const CorpusJob& job, const CorpusPrograms& programs);
 
-/// The row of an earlier run, if it has this key and its mesh is still there; else null.
+/// The row of an earlier run, if it has this key, is done and its mesh is still there; else null: what
+/// failed may have failed for a reason that has gone.
 CorpusRow find_row(const CorpusJob& job, const std::string& key);
 
 /// Runs the programs, however they end, and returns the row. Writes STEM.vtk and STEM.report.json.

@@ -81,6 +81,44 @@ TEST_F(CorpusTool, AFailedMeshIsARowThatSaysWhy) {
   EXPECT_THAT(read_file(file("out/corpus.csv")), testing::HasSubstr("octree,mean of 1,"));
 }
 
+TEST_F(CorpusTool, WhatFailedIsTriedAgain) {
+  // A folder in the way of an output, for a while.
+  ASSERT_EQ(run("mkdir -p out/octree/ball.vtk/in-the-way").exit_code, 0);
+  const ToolRun failed = run("hexweft-corpus in -o out");
+  EXPECT_EQ(failed.exit_code, 1);
+  EXPECT_THAT(failed.err, testing::HasSubstr("1 of 2 meshes failed, first octree/ball: failed: "));
+  const ToolRun again = run("rm -r out/octree/ball.vtk && hexweft-corpus in -o out");
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_THAT(again.out, testing::HasSubstr("octree/ball: H "));
+  EXPECT_THAT(again.out, testing::Not(testing::HasSubstr("polycube/cube")));
+}
+
+TEST_F(CorpusTool, AReportNeverTakesThePlaceOfAnotherFile) {
+  write_file(file("in/published.csv"), "corpus,mesh,x\noctree,ball,1\n");
+  const std::string mesh = read_file(file("in/octree/ball.vtk"));
+  for (const std::string json :
+       {"in/octree/ball.vtk", "in/octree/../octree/ball.vtk", "in/published.csv", "out/corpus.csv",
+        "out/corpus.md", "out/octree/ball.vtk", "out/octree/ball.report.json",
+        "out/octree/ball.row.json"}) {
+    SCOPED_TRACE(json);
+    const ToolRun result = run("mkdir -p out/octree && hexweft-corpus in -o out --json " + json);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_THAT(result.err, IsSentenceOf("hexweft-corpus"));
+    EXPECT_THAT(result.err,
+                testing::HasSubstr("--json = " + json + ", expected another file than"));
+  }
+  EXPECT_EQ(read_file(file("in/octree/ball.vtk")), mesh);
+  EXPECT_FALSE(std::filesystem::exists(file("out/octree/ball.vtk")));
+}
+
+TEST_F(CorpusTool, APresetThatIsPassedOnGoesBeforeThatOfTheFolder) {
+  for (const std::string preset : {"--preset polycube", "--preset=polycube"}) {
+    SCOPED_TRACE(preset);
+    const ToolRun result = run("hexweft-corpus in -o out -- " + preset);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+  }
+}
+
 TEST_F(CorpusTool, PublishedFiguresStandBesideOurs) {
   write_file(file("in/published.csv"),
              "corpus,mesh,H_in,method_BC,method_R,method_time_s\noctree,ball,7,123,0.25,4567\n");
@@ -97,6 +135,10 @@ TEST_F(CorpusTool, PublishedFiguresStandBesideOurs) {
   write_file(file("in/published.csv"), "corpus,mesh,\"a, b\"\noctree,ball,\"say \"\"x\"\", y\"\n");
   EXPECT_EQ(run("hexweft-corpus in -o out").exit_code, 0);
   EXPECT_THAT(lines("out/corpus.csv")[1], testing::EndsWith("done,\"say \"\"x\"\", y\""));
+  write_file(file("in/published.csv"), "corpus,mesh,x\nelsewhere,ball,1\n");
+  const ToolRun none = run("hexweft-corpus in -o out");
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_THAT(none.err, testing::HasSubstr("--all"));
   write_file(file("in/published.csv"), "corpus,mesh,x\noctree,ball\n");
   const ToolRun bad = run("hexweft-corpus in -o out");
   EXPECT_EQ(bad.exit_code, 3);
@@ -124,7 +166,9 @@ TEST_F(CorpusTool, RefusesWhatItCannotUse) {
                                         {"missing", 3},
                                         {"in/octree/ball.vtk", 3},
                                         {"in --no-chords", 2},
-                                        {"in -o in", 2}}) {
+                                        {"in -o in", 2},
+                                        {"in -o in/octree/ball.vtk", 3},
+                                        {"in -o in/octree/ball.vtk/out", 3}}) {
     SCOPED_TRACE(arguments);
     const ToolRun result = run(std::string("hexweft-corpus ") + arguments);
     EXPECT_EQ(result.exit_code, code);
