@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <span>
+#include <sstream>
 #include <tuple>
 
 namespace hexweft {
@@ -23,10 +25,40 @@ bool reversed(const QuadVertices& a, const QuadVertices& b) {
   return true;
 }
 
-std::string name(VertexHandle v) { return "vertex " + std::to_string(v.idx); }
-std::string name(EdgeHandle e) { return "edge " + std::to_string(e.idx); }
-std::string name(FaceHandle f) { return "face " + std::to_string(f.idx); }
-std::string name(CellHandle c) { return "cell " + std::to_string(c.idx); }
+// "6, 7 and 8"
+std::string list_of(std::span<const VertexHandle> vertices) {
+  std::string list;
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const bool is_last = i + 1 == vertices.size();
+    list += (i == 0 ? "" : is_last ? " and " : ", ") + std::to_string(vertices[i].idx);
+  }
+  return list;
+}
+
+// Vertices and cells have the numbers of a file; those of edges and faces stand nowhere.
+std::string name(const HexMesh&, VertexHandle v) { return "vertex " + std::to_string(v.idx); }
+std::string name(const HexMesh& mesh, EdgeHandle e) {
+  return "the edge between vertices " + list_of(mesh.vertices(e));
+}
+std::string name(const HexMesh& mesh, FaceHandle f) {
+  return "the face of vertices " + list_of(mesh.vertices(f));
+}
+std::string name(const HexMesh&, CellHandle c) { return "cell " + std::to_string(c.idx); }
+
+VertexHandle first_vertex(const HexMesh&, VertexHandle v) { return v; }
+template <class HandleT>
+VertexHandle first_vertex(const HexMesh& mesh, HandleT h) {
+  return mesh.vertices(h)[0];
+}
+
+// Where an element is. A file of which unused points were left out has other numbers.
+template <class HandleT>
+std::string place(const HexMesh& mesh, HandleT h) {
+  const Eigen::Vector3d p = mesh.point(first_vertex(mesh, h));
+  std::ostringstream text;
+  text << "at (" << p.x() << ", " << p.y() << ", " << p.z() << ")";
+  return text.str();
+}
 
 // Looks at one element at a time; the buffers are kept between calls.
 class TopologyChecker {
@@ -46,7 +78,7 @@ class TopologyChecker {
   };
   template <class HandleT>
   void report(TopologyDefect defect, HandleT h, const std::string& what) {
-    violations_.push_back({defect, h.idx, name(h) + ' ' + what});
+    violations_.push_back({defect, h.idx, name(mesh_, h) + ", " + place(mesh_, h) + ", " + what});
   }
   void check_boundary_side(HalfFaceHandle hf);
   void gather_link(VertexHandle v);
@@ -71,8 +103,8 @@ void TopologyChecker::check_boundary_side(HalfFaceHandle hf) {
       const HalfFaceHandle other = mesh_.halfface(*it, s);
       if (other == hf || !same_vertices(mesh_.vertices(other), quad)) continue;
       report(TopologyDefect::nonconforming_face, mesh_.face(hf),
-             "of " + name(mesh_.cell(hf)) + " lies on " + name(mesh_.face(other)) +
-                 ", which has its two cells already");
+             "is a side of " + name(mesh_, mesh_.cell(hf)) +
+                 " and lies on another that has its two cells already");
       return;
     }
   }
@@ -95,7 +127,7 @@ void TopologyChecker::check(CellHandle c) {
     if (std::find(neighbor.begin(), neighbor.begin() + s, neighbor[s]) != neighbor.begin() + s &&
         c < neighbor[s]) {
       report(TopologyDefect::multiply_glued_cells, c,
-             "shares more than one face with " + name(neighbor[s]));
+             "shares more than one face with " + name(mesh_, neighbor[s]));
     }
   }
 }
@@ -164,10 +196,11 @@ void TopologyChecker::check_link_edges(VertexHandle v) {
     const LinkEdge &x = link_edges_[i - 1], &y = link_edges_[i];
     if (x.a != y.a || x.b != y.b || x.face == y.face) continue;
     if (same_vertices(mesh_.vertices(x.face), mesh_.vertices(y.face))) {
-      report(TopologyDefect::nonconforming_face, y.face, "lies on " + name(x.face));
+      report(TopologyDefect::nonconforming_face, y.face, "lies on another of the same vertices");
     } else {
       report(TopologyDefect::doublet, v,
-             "lies between two edges that " + name(x.face) + " and " + name(y.face) + " share");
+             "lies between two edges that " + name(mesh_, x.face) + " and " + name(mesh_, y.face) +
+                 " share");
     }
   }
 }

@@ -71,7 +71,7 @@ TEST(Check, NamesTheVertexThatIsAllTwoCellsShare) {
   const auto found = check_topology(mesh);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_THAT(found[0], IsDefect(TopologyDefect::nonmanifold_vertex, shared));
-  EXPECT_THAT(found[0].message, HasSubstr("vertex " + std::to_string(shared)));
+  EXPECT_THAT(found[0].message, HasSubstr("vertex " + std::to_string(shared) + ", at (1, 1, 1), "));
   EXPECT_FALSE(is_valid(mesh));
 }
 
@@ -83,6 +83,10 @@ TEST(Check, NamesTheEdgeThatIsAllTwoCellsShare) {
               testing::ElementsAre(mesh.find_edge(v[2], v[6]).idx));
   EXPECT_THAT(indices(found, TopologyDefect::nonmanifold_vertex),
               testing::UnorderedElementsAre(v[2].idx, v[6].idx));
+  // The number of an edge stands in no file.
+  const std::string ends = std::to_string(v[2].idx) + " and " + std::to_string(v[6].idx);
+  EXPECT_EQ(found[0].message, "the edge between vertices " + ends +
+                                  ", at (1, 1, 0), has 4 boundary faces, expected 2");
 }
 
 TEST(Check, NamesTheVertexWhereTwoCavitiesMeet) {
@@ -101,6 +105,8 @@ TEST(Check, NamesAFaceWithThreeCells) {
   const auto found = check_topology(mesh);
   EXPECT_THAT(found, Contains(IsDefect(TopologyDefect::nonconforming_face,
                                        mesh.face(mesh.halfface(c, 0)).idx)));
+  EXPECT_THAT(found[0].message, testing::MatchesRegex("the face of vertices [0-9]+, [0-9]+, [0-9]+ "
+                                                      "and [0-9]+, at \\(1, [01], [01]\\), .*"));
   EXPECT_FALSE(is_valid(mesh));
 }
 

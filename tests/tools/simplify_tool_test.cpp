@@ -33,19 +33,20 @@ TEST_F(InfoTool, TellsTheFiguresOfATorus) {
 }
 
 TEST_F(InfoTool, SaysWhatIsWrongAndWhere) {
-  // Two cells that share one edge only.
+  // Two cells that share one edge only, and a point that is not used, before those of the edge.
   write_file(file("edge.vtk"),
-             "# vtk DataFile Version 2.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 14 double\n"
-             "0 0 0 1 0 0 1 1 0 0 1 0 0 0 1 1 0 1 1 1 1 0 1 1\n"
+             "# vtk DataFile Version 2.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 15 double\n"
+             "9 9 9 0 0 0 1 0 0 1 1 0 0 1 0 0 0 1 1 0 1 1 1 1 0 1 1\n"
              "2 1 0 2 2 0 1 2 0 2 1 1 2 2 1 1 2 1\n"
-             "CELLS 2 18\n8 0 1 2 3 4 5 6 7\n8 2 8 9 10 6 11 12 13\nCELL_TYPES 2\n12\n12\n");
+             "CELLS 2 18\n8 1 2 3 4 5 6 7 8\n8 3 9 10 11 7 12 13 14\nCELL_TYPES 2\n12\n12\n");
   const ToolRun result = run("hexweft-info edge.vtk --json report.json");
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const auto j = nlohmann::json::parse(read_file(file("report.json")));
   EXPECT_EQ(j["valid"], false);
   EXPECT_TRUE(j["components"].is_null());
   ASSERT_FALSE(j["problems"].empty());
-  EXPECT_THAT(j["problems"][0].get<std::string>(), testing::HasSubstr("edge"));
+  EXPECT_THAT(j["problems"][0].get<std::string>(),
+              testing::HasSubstr(", at (1, 1, 0), has 4 boundary faces"));
 }
 
 TEST_F(SimplifyTool, WritesASimplerValidMeshAndAReport) {
