@@ -196,14 +196,23 @@ void Program::check_paths() const {
 }
 
 bool Program::is_output(const std::string& path) const {
-  return is_same_file(path, output_path_) || is_same_file(path, json_path_);
+  return is_same_file(path, output_path_) || is_same_file(path, json_path_) ||
+         std::any_of(further_outputs_.begin(), further_outputs_.end(),
+                     [&](const std::string& other) { return is_same_file(path, other); });
 }
 
-void Program::expect_apart(const std::string& option, const std::string& path) const {
-  const bool is_taken = path == "-" ? output_path_ == "-" || json_path_ == "-"
-                                    : is_same_file(path, input_path_) || is_output(path);
+bool Program::writes_to_stdout() const {
+  return output_path_ == "-" || json_path_ == "-" ||
+         std::find(further_outputs_.begin(), further_outputs_.end(), "-") != further_outputs_.end();
+}
+
+void Program::take_output(const std::string& option, const std::string& path) {
+  if (path.empty()) return;
+  const bool is_taken =
+      path == "-" ? writes_to_stdout() : is_same_file(path, input_path_) || is_output(path);
   if (is_taken)
     throw InputError(option + " = " + path + ", expected another file than INPUT and the outputs");
+  further_outputs_.push_back(path);
 }
 
 void Program::expect_not_written(const std::string& option, const std::string& path) const {
@@ -294,8 +303,7 @@ void Program::write_json(const nlohmann::ordered_json& report) {
 void Program::say(const std::string& line) { say_text(line + '\n'); }
 
 void Program::say_text(const std::string& lines) {
-  const bool taken = output_path_ == "-" || json_path_ == "-";
-  (taken ? std::cerr : std::cout) << lines;
+  (writes_to_stdout() ? std::cerr : std::cout) << lines;
 }
 
 }  // namespace hexweft::cli

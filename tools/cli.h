@@ -22,6 +22,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -71,9 +72,10 @@ class Program {
   /// Says on standard error in one sentence what failed. \return `code`
   int fail(int code, const std::string& message) const;
   void note(const std::string& text) const;  ///< a remark on standard error
-  /// \throws InputError if a further file that is written is one of INPUT, --output and --json
-  void expect_apart(const std::string& option, const std::string& path) const;
-  /// \throws InputError if a further file that is read is one of --output and --json
+  /// Takes a further file for an output, or standard output; none if it is empty.
+  /// \throws InputError if it is INPUT or an output already
+  void take_output(const std::string& option, const std::string& path);
+  /// \throws InputError if a further file that is read is one of the outputs
   void expect_not_written(const std::string& option, const std::string& path) const;
   /// \throws InputError if --json is this file; `what` names it: "the surface"
   void expect_no_json(const std::string& path, const std::string& what) const;
@@ -82,10 +84,12 @@ class Program {
   void check_paths() const;
   std::string by_flag(const std::string& message) const;
   bool is_output(const std::string& path) const;
+  bool writes_to_stdout() const;
 
   CLI::App app_;
   std::string name_;
   std::string input_path_, input_format_, output_path_, json_path_;
+  std::vector<std::string> further_outputs_;
   WriteOptions write_options_;
 };
 

@@ -60,10 +60,12 @@ std::vector<int> color_components(const BaseComplex& bc) {
   return color;
 }
 
-// A property of this name that holds nothing yet.
+// A property of this name that holds nothing yet, said where it takes the place of another.
 template <class T>
-CellProperty<T> fresh_property(HexMesh& mesh, const std::string& name, const T& value) {
-  property_registry<CellTag>(mesh)->erase(name);
+CellProperty<T> fresh_property(const cli::Program& program, HexMesh& mesh, const std::string& name,
+                               const T& value) {
+  if (property_registry<CellTag>(mesh)->erase(name))
+    program.note("the cell data " + name + " of the input is replaced");
   return named_property<CellTag, T>(mesh, name, value);
 }
 
@@ -73,12 +75,12 @@ Eigen::VectorXi row(const std::array<int, 3>& ids) {
   return result;
 }
 
-void add_cell_data(HexMesh& mesh, const Structure& s) {
-  auto component = fresh_property(mesh, "component", -1);
-  auto color = fresh_property(mesh, "color", -1);
+void add_cell_data(const cli::Program& program, HexMesh& mesh, const Structure& s) {
+  auto component = fresh_property(program, mesh, "component", -1);
+  auto color = fresh_property(program, mesh, "color", -1);
   const Eigen::VectorXi none = row({-1, -1, -1});
-  auto sheets = fresh_property(mesh, "sheets", none);
-  auto chords = fresh_property(mesh, "chords", none);
+  auto sheets = fresh_property(program, mesh, "sheets", none);
+  auto chords = fresh_property(program, mesh, "chords", none);
   const Triples sheet_of = sheets_of_components(s), chord_of = chords_of_components(s);
   const std::vector<int> color_of = color_components(s.bc);
   for (const CellHandle c : mesh.cells()) {
@@ -182,17 +184,14 @@ int main(int argc, char** argv) {
                            "Write the base edges as VTK lines, with sheet and valence");
   program.add_json();
   return program.run(argc, argv, [&] {
-    program.expect_apart("--singular-edges", singular_path);
-    program.expect_apart("--base-edges", base_path);
-    if (!base_path.empty() &&
-        (base_path == singular_path || cli::is_same_file(base_path, singular_path)))
-      throw InputError("--base-edges = " + base_path + ", expected another than --singular-edges");
+    program.take_output("--singular-edges", singular_path);
+    program.take_output("--base-edges", base_path);
     for (const std::string& path : {singular_path, base_path}) {
       if (!path.empty()) check_writable(path);
     }
     HexMesh mesh = program.read_valid_mesh();
     const Structure s(mesh);
-    add_cell_data(mesh, s);
+    add_cell_data(program, mesh, s);
     program.write_mesh(mesh);
     if (!singular_path.empty()) {
       write_file(singular_path, cli::polyline_vtk(mesh, singular_lines(s.bc.graph)));

@@ -124,6 +124,7 @@ TEST_F(StructureTool, WritesNothingInThePlaceOfAnotherFile) {
   for (const std::string arguments :
        {"-o out.vtk --singular-edges in.vtk", "-o out.vtk --base-edges out.vtk",
         "-o - --singular-edges -", "-o out.vtk --singular-edges - --base-edges -",
+        "-o out.vtk --base-edges - --json -",
         "-o out.vtk --singular-edges s.vtk --base-edges s.vtk", "-o out.vtk --json in.vtk"}) {
     SCOPED_TRACE(arguments);
     const ToolRun result = run("hexweft-structure in.vtk " + arguments);
@@ -134,11 +135,30 @@ TEST_F(StructureTool, WritesNothingInThePlaceOfAnotherFile) {
   }
 }
 
-TEST_F(StructureTool, CanBeRunOnItsOwnOutput) {
+TEST_F(StructureTool, CanBeRunOnItsOwnOutputAndSaysWhatItReplaces) {
   make("o-grid");
-  ASSERT_EQ(run("hexweft-structure in.vtk -o a.vtk").exit_code, 0);
-  ASSERT_EQ(run("hexweft-structure - -o b.vtk <a.vtk").exit_code, 0);
+  const ToolRun first = run("hexweft-structure in.vtk -o a.vtk");
+  ASSERT_EQ(first.exit_code, 0);
+  EXPECT_EQ(first.err, "");
+  const ToolRun second = run("hexweft-structure - -o b.vtk <a.vtk");
+  ASSERT_EQ(second.exit_code, 0);
   EXPECT_EQ(read_file(file("a.vtk")), read_file(file("b.vtk")));
+  for (const std::string name : {"component", "color", "sheets", "chords"}) {
+    EXPECT_THAT(second.err, testing::HasSubstr("hexweft-structure: note: the cell data " + name +
+                                               " of the input is replaced\n"));
+  }
+}
+
+TEST_F(StructureTool, LinesHaveStandardOutputForThemselves) {
+  make("torus --square");
+  for (const std::string option : {"--singular-edges", "--base-edges"}) {
+    SCOPED_TRACE(option);
+    const ToolRun to_file = run("hexweft-structure in.vtk -o a.vtk " + option + " lines.vtk");
+    const ToolRun to_stdout = run("hexweft-structure in.vtk -o a.vtk " + option + " -");
+    ASSERT_EQ(to_stdout.exit_code, 0);
+    EXPECT_EQ(to_stdout.out, read_file(file("lines.vtk")));
+    EXPECT_EQ(to_stdout.err, to_file.out);
+  }
 }
 
 TEST_F(CollapseTool, CollapsesASheetThatRankLists) {
