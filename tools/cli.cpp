@@ -83,6 +83,12 @@ int n_inverted_if_rounded(const HexMesh& mesh, int digits) {
   return n;
 }
 
+// "target_hexahedra_rel" as a flag has it: "target_hexahedra_ratio".
+std::string with_ratio(std::string words) {
+  if (words.ends_with("_rel")) words.replace(words.size() - 3, 3, "ratio");
+  return words;
+}
+
 // Whether the words of `part` are among those of `whole`, one after the other.
 bool has_words(const std::string& whole, const std::string& part) {
   return ("_" + whole + "_").find("_" + part + "_") != std::string::npos;
@@ -132,10 +138,11 @@ std::string Program::by_flag(const std::string& message) const {
     for (char& c : text) c = c == '-' || c == '.' ? '_' : c;
     return text;
   };
+  const std::string option_words = with_ratio(words(message.substr(0, end)));
   std::string flag;
   for (const CLI::Option* option : app_.get_options()) {
     for (const std::string& name : option->get_lnames()) {
-      const bool is_meant = has_words(words(message.substr(0, end)), words(name));
+      const bool is_meant = has_words(option_words, words(name));
       if (is_meant && name.size() > flag.size()) flag = name;
     }
   }

@@ -89,6 +89,8 @@ int run(cli::Program& program, const Request& request) {
   }
   cli::SingleTrial trial(program, request.trial);
   const auto before = trial.figures();
+  if (const int n_cells = trial.mesh().n_cells(); request.hexahedra.value_or(n_cells) < n_cells)
+    program.note(fmt::format("nothing is split: there are {} hexahedra already", n_cells));
   const int n = request.sheet ? split_layers(trial, *request.sheet, request.trial.options)
                               : split_up_to(trial, request);
   trial.mesh().collect_garbage();

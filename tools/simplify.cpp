@@ -37,8 +37,8 @@ void add_options(CLI::App& app, Request& r) {
                  "Largest distance to the input's surface, both ways, as a fraction of its "
                  "bounding-box diagonal")
       ->capture_default_str();
-  app.add_option("--hexahedra", o.target_hexahedra_rel,
-                 "Hexahedra to keep, relative to the input; below it sheets are split")
+  app.add_option("--hexahedra-ratio", o.target_hexahedra_rel,
+                 "Hexahedra to end with, relative to the input; below it sheets are split")
       ->capture_default_str();
   app.add_option("--min-scaled-jacobian", o.min_scaled_jacobian,
                  "A step may not leave its region below this (or what it found, if less)")

@@ -102,6 +102,19 @@ TEST_F(SimplifyTool, TakesTheBestOfSeveralAttempts) {
   EXPECT_EQ(run("hexweft-info out.vtk").exit_code, 0);
 }
 
+TEST_F(SimplifyTool, KeepsTheShareOfHexahedraThatIsAskedFor) {
+  ASSERT_EQ(run("hexweft-generate octree-like --resolution 6 -o in.vtk").exit_code, 0);
+  for (const double ratio : {1.0, 2.0}) {
+    const ToolRun result =
+        run("hexweft-simplify in.vtk -o out.vtk --json r.json --hexahedra-ratio " +
+            std::to_string(ratio));
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const auto j = nlohmann::json::parse(read_file(file("r.json")));
+    const double before = j["before"]["hexahedra"], after = j["after"]["hexahedra"];
+    EXPECT_GE(after, 0.9 * ratio * before);
+  }
+}
+
 // Line searches on this one make ceres log warnings.
 TEST_F(SimplifyTool, IsQuietWhereNothingIsWrong) {
   const ToolRun r =
@@ -215,6 +228,7 @@ TEST_F(SimplifyTool, CheckpointThatDoesNotFitIsRefusedInASentence) {
     EXPECT_THAT(result.err, testing::HasSubstr(why));
   };
   refuses("in.vtk --hausdorff 2", 2, "--hausdorff = 2, expected (0, 1]");
+  refuses("in.vtk --hexahedra-ratio 0", 2, "--hexahedra-ratio = 0, expected ");
   refuses("in.vtk --rate 2", 2, "--rate = 2, expected [0, 1]");
   refuses("in.vtk --features 200", 2, "--features = 200, expected auto, off or an angle");
   refuses("grid.vtk --resume c", 2, "another input");

@@ -283,6 +283,14 @@ TEST_F(RefineTool, SplitsUpToACount) {
   EXPECT_LE(after["hexahedra"], wanted * 3 / 2);
 }
 
+TEST_F(RefineTool, SaysThatThereAreMoreThanItIsAskedFor) {
+  make("grid --resolution 3");
+  const ToolRun result = run("hexweft-refine in.vtk -o out.vtk --hexahedra 26");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.err, "hexweft-refine: note: nothing is split: there are 27 hexahedra already\n");
+  EXPECT_EQ(run("hexweft-refine in.vtk -o out.vtk --hexahedra 27").err, "");
+}
+
 // A layer that is far from the surface stays so, but is not split for it over and over.
 TEST_F(RefineTool, MakesNoThinLayersWhereTheSurfaceIsFar) {
   make("octree-like --shape blob --resolution 8");
