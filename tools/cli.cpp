@@ -174,11 +174,12 @@ void Program::add_output() {
   app_.add_option("--format", write_options_.format,
                   "Format of the output (default: by its extension, vtk for -)")
       ->check(CLI::IsMember(format_names()));
-  app_.add_flag("--binary", write_options_.binary,
-                "Write binary numbers where the format knows them");
+  auto* binary = app_.add_flag("--binary", write_options_.binary,
+                               "Write binary numbers where the format knows them");
   app_.add_option_function<int>(
           "--precision", [this](const int& digits) { write_options_.precision = digits; },
           "Significant digits in text (default: as few as read back exactly)")
+      ->excludes(binary)
       ->check(in_range(1, 17));
 }
 

@@ -107,7 +107,7 @@ int main(int argc, char** argv) {
   program.add_input();
   program.add_output();
   app.add_option("--sheet", request.sheet, "Id of a sheet, as hexweft-rank lists it");
-  app.add_option("--chord", request.chord, "Id of a chord, likewise");
+  auto* chord = app.add_option("--chord", request.chord, "Id of a chord, likewise");
   app.add_option("--peel", request.peel,
                  "Id of a peel, likewise: what lies of a sheet under one face");
   app.add_option(
@@ -117,6 +117,7 @@ int main(int argc, char** argv) {
   app.add_option("--diagonal", request.diagonal,
                  "Diagonal along which the chord folds: first or second (default: the one that "
                  "leaves the smaller valence error)")
+      ->needs(chord)
       ->check(CLI::IsMember({"first", "second"}));
   request.trial.add_to(app);
   app.add_option("--splits", request.trial.options.splits_per_trial,

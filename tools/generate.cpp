@@ -30,6 +30,7 @@ struct Request {
 struct Kind {
   std::string name;
   int default_resolution;
+  std::vector<std::string> options;  // that not every kind takes
   HexMesh (*make)(int n, const Request& request);
 };
 
@@ -60,15 +61,21 @@ HexMesh make_octree_like_as_asked(int n, const Request& request) {
 
 const std::vector<Kind>& kinds() {
   static const std::vector<Kind> kKinds{
-      {"grid", 4,
+      {"grid",
+       4,
+       {"--layers"},
        [](int n, const Request& request) {
          return make_grid({n, n, request.layers.value_or(n)});
        }},
-      {"o-grid", 3,
+      {"o-grid",
+       3,
+       {"--layers"},
        [](int n, const Request& request) {
          return make_o_grid({.n_core = n, .n_ring = n, .n_layers = request.layers.value_or(2 * n)});
        }},
-      {"torus", 2,
+      {"torus",
+       2,
+       {"--layers", "--square", "--quarter-turns"},
        [](int n, const Request& request) {
          TorusOptions options;
          options.n_core = options.n_ring = n;
@@ -77,14 +84,31 @@ const std::vector<Kind>& kinds() {
          options.n_quarter_turns = request.quarter_turns;
          return make_torus(options);
        }},
-      {"l-shape", 3, [](int n, const Request&) { return make_l_shape(n); }},
-      {"octree-like", 16, make_octree_like_as_asked}};
+      {"l-shape", 3, {}, [](int n, const Request&) { return make_l_shape(n); }},
+      {"octree-like",
+       16,
+       {"--shape", "--holes", "--oblique", "--cells-per-voxel"},
+       make_octree_like_as_asked}};
   return kKinds;
 }
 
 const Kind& kind_named(const std::string& name) {
   return *std::find_if(kinds().begin(), kinds().end(),
                        [&](const Kind& k) { return k.name == name; });
+}
+
+// \throws InputError for an option that would change nothing
+void check_options(const CLI::App& app, const Request& request) {
+  const std::vector<std::string>& own = kind_named(request.kind).options;
+  for (const Kind& kind : kinds()) {
+    for (const std::string& option : kind.options) {
+      const bool is_own = std::find(own.begin(), own.end(), option) != own.end();
+      if (app.count(option) > 0 && !is_own)
+        throw InputError(option + " has no meaning for " + request.kind);
+    }
+  }
+  if (app.count("--holes") > 0 && request.shape != kPlateWithHoles)
+    throw InputError("--holes has no meaning for the shape " + request.shape);
 }
 
 void add_structure_options(CLI::App& app, Request& request) {
@@ -174,6 +198,7 @@ void place(HexMesh& mesh, const Request& request) {
 }
 
 int generate(cli::Program& program, const Request& request) {
+  check_options(program.app(), request);
   const Kind& kind = kind_named(request.kind);
   const int resolution = request.resolution.value_or(kind.default_resolution);
   HexMesh mesh = kind.make(resolution, request);

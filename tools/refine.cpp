@@ -84,9 +84,8 @@ void expect_within(const nlohmann::ordered_json& before, const nlohmann::ordered
 }
 
 int run(cli::Program& program, const Request& request) {
-  if (request.sheet.has_value() == request.hexahedra.has_value()) {
+  if (!request.sheet && !request.hexahedra)
     throw InputError("expected one of --sheet and --hexahedra");
-  }
   cli::SingleTrial trial(program, request.trial);
   const auto before = trial.figures();
   if (const int n_cells = trial.mesh().n_cells(); request.hexahedra.value_or(n_cells) < n_cells)
@@ -119,15 +118,19 @@ int main(int argc, char** argv) {
   CLI::App& app = program.app();
   program.add_input();
   program.add_output();
-  app.add_option("--sheet", request.sheet,
-                 "Split all layers of this sheet of the base complex, as hexweft-rank lists it");
-  app.add_option("--hexahedra", request.hexahedra,
-                 "Split layers, those farthest from the surface or longest across first, up to "
-                 "about this many hexahedra")
-      ->check(cli::in_range(1, 1e9));
+  auto* sheet = app.add_option(
+      "--sheet", request.sheet,
+      "Split all layers of this sheet of the base complex, as hexweft-rank lists it");
+  auto* hexahedra =
+      app.add_option("--hexahedra", request.hexahedra,
+                     "Split layers, those farthest from the surface or longest across first, up to "
+                     "about this many hexahedra")
+          ->excludes(sheet)
+          ->check(cli::in_range(1, 1e9));
   app.add_option("--min-length", request.min_length_rel,
                  "With --hexahedra: split no layer whose mean length across is below this many "
                  "mean edges")
+      ->needs(hexahedra)
       ->check(cli::in_range(0, 1e6))
       ->capture_default_str();
   request.trial.add_to(app);

@@ -245,7 +245,8 @@ TEST_F(CollapseTool, SaysWhyNotAndWritesNothing) {
        {"in.vtk -o out.vtk", "in.vtk -o out.vtk --sheet 0 --chord 0",
         "in.vtk -o out.vtk --sheet 0 --peel 0", "in.vtk -o out.vtk --peel 0",
         "in.vtk -o out.vtk --sheet 3", "in.vtk -o out.vtk --chord -1",
-        "in.vtk -o out.vtk --chord 0 --diagonal third"}) {
+        "in.vtk -o out.vtk --chord 0 --diagonal third",
+        "in.vtk -o out.vtk --sheet 0 --diagonal first"}) {
     SCOPED_TRACE(arguments);
     const ToolRun wrong = run("hexweft-collapse " + arguments);
     EXPECT_EQ(wrong.exit_code, 2);
@@ -332,8 +333,8 @@ TEST_F(RefineTool, RefusesWhatItCannotUse) {
   make("grid --resolution 2");
   for (const std::string arguments :
        {"in.vtk -o out.vtk", "in.vtk -o out.vtk --sheet 0 --hexahedra 100",
-        "in.vtk -o out.vtk --sheet 3", "in.vtk -o out.vtk --hexahedra 0",
-        "in.vtk -o out.vtk --hexahedra 100 --hausdorff 0"}) {
+        "in.vtk -o out.vtk --sheet 3", "in.vtk -o out.vtk --sheet 0 --min-length 2",
+        "in.vtk -o out.vtk --hexahedra 0", "in.vtk -o out.vtk --hexahedra 100 --hausdorff 0"}) {
     SCOPED_TRACE(arguments);
     const ToolRun result = run("hexweft-refine " + arguments);
     EXPECT_EQ(result.exit_code, 2);
