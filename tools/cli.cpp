@@ -14,6 +14,8 @@
 #include <malloc.h>
 #endif
 
+#include <fmt/format.h>
+
 #include "io/file.h"
 #include "io/formats.h"
 #include "io/number_text.h"
@@ -47,13 +49,6 @@ std::string one_line(std::string text) {
   for (char& c : text) {
     if (c == '\n') c = ' ';
   }
-  return text;
-}
-
-std::string short_number(double x) {
-  std::string text = std::to_string(x);
-  while (text.back() == '0') text.pop_back();
-  if (text.back() == '.') text.pop_back();
   return text;
 }
 
@@ -119,7 +114,7 @@ bool is_same_file(const std::string& a, const std::string& b) {
 }
 
 CLI::Validator in_range(double least, double most) {
-  const std::string range = "[" + short_number(least) + ", " + short_number(most) + "]";
+  const std::string range = fmt::format("[{:.10g}, {:.10g}]", least, most);
   const auto check = [=](const std::string& text) -> std::string {
     double value = std::nan("");
     const bool is_number = CLI::detail::lexical_cast(text, value);

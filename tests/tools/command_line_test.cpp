@@ -70,6 +70,16 @@ TEST_F(CommandLine, WrongUsageIsExitCode2AndOneSentence) {
   EXPECT_EQ(n_files(), 0);
 }
 
+TEST_F(CommandLine, ARangeIsSaidInShort) {
+  for (const auto& [arguments, range] :
+       {std::pair("--scale 1e-31", "[1e-30, 1e+30], found \"1e-31\""),
+        {"--scale 0", "[1e-30, 1e+30], found \"0\""},
+        {"--seed -1", "[0, 4294967295], found \"-1\""}}) {
+    EXPECT_THAT(run(std::string("hexweft-generate grid -o x.vtk ") + arguments).err,
+                testing::HasSubstr(std::string("expected a number in ") + range));
+  }
+}
+
 TEST_F(CommandLine, FilesThatCannotBeUsedAreExitCode3) {
   write_file(file("broken.vtk"), "# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\n");
   write_file(file("noise"), "not a mesh");
