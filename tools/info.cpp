@@ -38,44 +38,43 @@ std::vector<std::string> list_problems(const HexMesh& mesh,
   return problems;
 }
 
-Json figures_of(const HexMesh& mesh, bool topology_is_valid) {
-  Json j;
-  if (topology_is_valid) {
-    const MeshFigures f = measure_mesh(mesh);
-    j = {{"vertices", f.vertices},
-         {"hexahedra", f.hexahedra},
-         {"components", f.components},
-         {"base_vertices", f.base_vertices},
-         {"base_edges", f.base_edges},
-         {"base_faces", f.base_faces},
-         {"min_scaled_jacobian", f.min_scaled_jacobian},
-         {"mean_scaled_jacobian", f.mean_scaled_jacobian},
-         {"std_scaled_jacobian", f.std_scaled_jacobian},
-         {"mean_volume_deviation", f.mean_volume_deviation},
-         {"max_volume_deviation", f.max_volume_deviation},
-         {"inverted", f.inverted},
-         {"genus", f.genus},
-         {"parts", f.parts}};
-    const SingularityGraph g = extract_singularity_graph(mesh);
-    j["singular_curves"] = g.curves.size();
-    j["singular_edges"] = std::count(g.singular_edge.begin(), g.singular_edge.end(), 1);
-    j["singular_vertices"] = std::count(g.singular_vertex.begin(), g.singular_vertex.end(), 1);
-    return j;
-  }
-  // A base complex, genus and parts are those of manifolds only.
+// A base complex, genus and parts are those of manifolds only.
+MeshFigures figures_without_structure(const HexMesh& mesh) {
   const QualitySummary q = summarize_quality(mesh, 0);
-  j = {{"vertices", mesh.n_vertices()},
-       {"hexahedra", mesh.n_cells()},
-       {"components", nullptr},
-       {"base_vertices", nullptr},
-       {"base_edges", nullptr},
-       {"base_faces", nullptr},
-       {"min_scaled_jacobian", q.min_scaled_jacobian},
-       {"mean_scaled_jacobian", q.mean_scaled_jacobian},
-       {"inverted", q.n_inverted},
-       {"genus", nullptr},
-       {"parts", nullptr}};
-  return j;
+  MeshFigures f;
+  f.vertices = mesh.n_vertices();
+  f.hexahedra = mesh.n_cells();
+  f.min_scaled_jacobian = q.min_scaled_jacobian;
+  f.mean_scaled_jacobian = q.mean_scaled_jacobian;
+  f.std_scaled_jacobian = q.std_scaled_jacobian;
+  f.mean_volume_deviation = q.mean_volume_deviation;
+  f.max_volume_deviation = q.max_volume_deviation;
+  f.inverted = q.n_inverted;
+  return f;
+}
+
+// The same keys for every mesh, null where unknown.
+Json figures_of(const HexMesh& mesh, bool is_manifold) {
+  const MeshFigures f = is_manifold ? measure_mesh(mesh) : figures_without_structure(mesh);
+  const SingularityGraph g = is_manifold ? extract_singularity_graph(mesh) : SingularityGraph{};
+  const auto if_manifold = [&](auto figure) { return is_manifold ? Json(figure) : Json(); };
+  return {{"vertices", f.vertices},
+          {"hexahedra", f.hexahedra},
+          {"components", if_manifold(f.components)},
+          {"base_vertices", if_manifold(f.base_vertices)},
+          {"base_edges", if_manifold(f.base_edges)},
+          {"base_faces", if_manifold(f.base_faces)},
+          {"min_scaled_jacobian", f.min_scaled_jacobian},
+          {"mean_scaled_jacobian", f.mean_scaled_jacobian},
+          {"std_scaled_jacobian", f.std_scaled_jacobian},
+          {"mean_volume_deviation", f.mean_volume_deviation},
+          {"max_volume_deviation", f.max_volume_deviation},
+          {"inverted", f.inverted},
+          {"genus", if_manifold(f.genus)},
+          {"parts", if_manifold(f.parts)},
+          {"singular_curves", if_manifold(g.curves.size())},
+          {"singular_edges", if_manifold(std::ranges::count(g.singular_edge, 1))},
+          {"singular_vertices", if_manifold(std::ranges::count(g.singular_vertex, 1))}};
 }
 
 std::string text_of(const Json& value) {

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/hex_mesh_io.h"
+#include "ovm/generators.h"
 #include "ovm/quality.h"
 #include "ovm/topology_check.h"
 #include "tests/tools/run_tool.h"
@@ -44,9 +45,27 @@ TEST_F(InfoTool, SaysWhatIsWrongAndWhere) {
   const auto j = nlohmann::json::parse(read_file(file("report.json")));
   EXPECT_EQ(j["valid"], false);
   EXPECT_TRUE(j["components"].is_null());
+  EXPECT_TRUE(j["singular_edges"].is_null());
+  EXPECT_TRUE(j["std_scaled_jacobian"].is_number());
   ASSERT_FALSE(j["problems"].empty());
   EXPECT_THAT(j["problems"][0].get<std::string>(),
               testing::HasSubstr(", at (1, 1, 0), has 4 boundary faces"));
+}
+
+TEST_F(InfoTool, ReportsHaveTheSameKeysWhateverTheMesh) {
+  ASSERT_EQ(run("hexweft-generate grid --resolution 1 -o whole.vtk").exit_code, 0);
+  HexMesh mesh = make_grid({2, 2, 1});
+  mesh.delete_cell(CellHandle(0));
+  mesh.delete_cell(CellHandle(3));
+  write_hex_mesh(file("torn.vtk"), mesh);
+  std::vector<std::string> whole, torn;
+  for (auto& [name, keys] : {std::pair("whole.vtk", &whole), {"torn.vtk", &torn}}) {
+    const auto j =
+        nlohmann::ordered_json::parse(run(std::string("hexweft-info --json - ") + name).out);
+    EXPECT_EQ(j["valid"], keys == &whole);
+    for (const auto& item : j.items()) keys->push_back(item.key());
+  }
+  EXPECT_EQ(torn, whole);
 }
 
 TEST_F(SimplifyTool, WritesASimplerValidMeshAndAReport) {
