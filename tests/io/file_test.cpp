@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <unistd.h>
 
 #include "tests/io/sample_meshes.h"
 
@@ -11,13 +12,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A folder of the test's own, gone afterwards.
+// A folder of the test's own in this process, gone afterwards.
 class Folder : public testing::Test {
  protected:
   void SetUp() override {
     folder_ =
         fs::path(testing::TempDir()) /
-        (std::string("hexweft-") + testing::UnitTest::GetInstance()->current_test_info()->name());
+        (std::string("hexweft-") + testing::UnitTest::GetInstance()->current_test_info()->name() +
+         "-" + std::to_string(::getpid()));
     fs::remove_all(folder_);
     fs::create_directories(folder_);
   }

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -18,13 +19,15 @@ struct ToolRun {
   std::string out, err;
 };
 
-/// A test with a folder of its own to run the programs in.
+/// A test with a folder of its own to run the programs in, also where the same test runs at the same
+/// time in another process.
 class ToolTest : public testing::Test {
  protected:
   void SetUp() override {
     const auto* info = testing::UnitTest::GetInstance()->current_test_info();
     folder_ = std::filesystem::path(testing::TempDir()) /
-              (std::string("hexweft-tool-") + info->test_suite_name() + "-" + info->name());
+              (std::string("hexweft-tool-") + info->test_suite_name() + "-" + info->name() + "-" +
+               std::to_string(::getpid()));
     std::filesystem::remove_all(folder_);
     std::filesystem::create_directories(folder_ / "work");
   }
