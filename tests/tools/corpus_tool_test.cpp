@@ -150,12 +150,12 @@ TEST_F(CorpusTool, GoesOnAfterAnInterruption) {
                 .exit_code,
             0);
   const ToolRun stopped =
-      run("hexweft-corpus in -o out --jobs 1 & pid=$!; sleep 1; kill -TERM $pid; wait $pid");
+      run_and_signal("hexweft-corpus in -o out --jobs 1 -- --log run.log", "TERM");
   EXPECT_EQ(stopped.exit_code, 1);
   EXPECT_THAT(stopped.err, testing::HasSubstr("goes on from here"));
   EXPECT_FALSE(std::filesystem::exists(file("out/corpus.csv")));
   EXPECT_FALSE(std::filesystem::exists(file("out/octree/big.row.json")));
-  const ToolRun rest = run("rm in/octree/big.vtk && hexweft-corpus in -o out");
+  const ToolRun rest = run("rm in/octree/big.vtk && hexweft-corpus in -o out -- --log run.log");
   EXPECT_EQ(rest.exit_code, 0) << rest.err;
   EXPECT_EQ(lines("out/corpus.csv").size(), 5u);
 }

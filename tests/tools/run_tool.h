@@ -42,6 +42,15 @@ class ToolTest : public testing::Test {
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_file(folder_ / "out"),
             read_file(folder_ / "err")};
   }
+  /// The same, where the command writes a log of steps to run.log and is sent a signal after its first
+  /// one. What the log was by then is in signal.log.
+  ToolRun run_and_signal(const std::string& command, const std::string& signal) const {
+    return run(
+        "rm -f run.log; " + command +
+        " & pid=$!; for i in $(seq 6000); do "
+        "[ \"$(cat run.log 2>/dev/null | wc -l)\" -ge 2 ] && break; sleep 0.01; done; kill -" +
+        signal + " $pid; cp run.log signal.log; wait $pid");
+  }
   std::filesystem::path file(const std::string& name) const { return folder_ / "work" / name; }
   int n_files() const {
     return static_cast<int>(
