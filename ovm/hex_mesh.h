@@ -136,7 +136,8 @@ class HexMesh {
   HalfFaceHandle find_halfface(const QuadVertices& vertices) const;
   int corner_of(CellHandle c, VertexHandle v) const;  ///< -1 if v is no corner of c
 
-  // ---- Edits: all keep every incidence current; use inside a Transaction to be able to undo ----
+  // ---- Edits: all keep every incidence current; use inside a Transaction to be able to undo.
+  // Handles are those of live elements, or InputError is thrown and the mesh is as before ----
   VertexHandle add_vertex(const Eigen::Vector3d& p);
   /// Faces are glued where a half-face with the same vertices waits for a mate.
   /// \throws InputError unless the 8 vertices are live and different
@@ -145,7 +146,8 @@ class HexMesh {
   void delete_vertex(VertexHandle v);  ///< \throws InputError if a cell uses it
   /// Relabels vertices, in this order, and glues the half-faces that have come to lie on another.
   /// Of two edges that fall together the one at `keep` survives, of two faces the lower handle.
-  /// \throws InputError if a cell has both vertices of a pair; the mesh is then as before
+  /// A vertex may be kept by many pairs, but one that is dropped is in no other pair.
+  /// \throws InputError if it is, or a cell has both vertices of a pair; the mesh is then as before
   void merge_vertices(std::span<const VertexMerge> merges);
   void reserve(int vertices, int cells);
 

@@ -3,6 +3,7 @@
 #include <numeric>
 #include <string>
 
+#include "ovm/detail/require_live.h"
 #include "ovm/errors.h"
 #include "ovm/hex_mesh.h"
 #include "ovm/transaction.h"
@@ -115,8 +116,8 @@ HalfFaceHandle HexMesh::waiting_mate(HalfFaceHandle hf) const {
 
 CellHandle HexMesh::add_cell(CellVertices v) {
   for (int i = 0; i < 8; ++i) {
-    const bool usable = v[i].valid() && v[i].idx < vertex_slots() && is_live(v[i]);
-    if (!usable || std::find(v.begin(), v.begin() + i, v[i]) != v.begin() + i) {
+    if (!detail::is_live(*this, v[i]) ||
+        std::find(v.begin(), v.begin() + i, v[i]) != v.begin() + i) {
       throw InputError("a cell needs 8 different vertices of the mesh; corner " +
                        std::to_string(i) + " is vertex " + std::to_string(v[i].idx));
     }
@@ -151,6 +152,7 @@ CellHandle HexMesh::add_cell(CellVertices v) {
 }
 
 void HexMesh::delete_cell(CellHandle c) {
+  detail::require_live(*this, c);
   const CellVertices v = cell_vertices_[c.idx];
   for (int i = 0; i < 8; ++i) unlink(first_corner_, v[i].idx, corner_next_, 8 * c.idx + i);
   for (int s = 0; s < 6; ++s) {
@@ -175,8 +177,9 @@ void HexMesh::delete_cell(CellHandle c) {
 }
 
 void HexMesh::delete_vertex(VertexHandle v) {
+  detail::require_live(*this, v);
   if (first_corner_[v.idx] >= 0) {
-    throw InputError("vertex " + std::to_string(v.idx) + " cannot be deleted: a cell uses it");
+    throw InputError(detail::name(v) + " cannot be deleted: a cell uses it");
   }
   vertex_live_.set(v.idx, false);
   --counts_.vertices;
@@ -194,11 +197,13 @@ void HexMesh::merge_edge(EdgeHandle keep, EdgeHandle drop) {
 }
 
 void HexMesh::merge_vertex(VertexMerge m) {
+  detail::require_live(*this, m.keep);
+  detail::require_live(*this, m.drop);
+  if (m.keep == m.drop) throw InputError(detail::name(m.keep) + " cannot merge with itself");
   for (CellHandle c : cells(m.drop)) {
     if (corner_of(c, m.keep) >= 0) {
-      throw InputError("vertices " + std::to_string(m.keep.idx) + " and " +
-                       std::to_string(m.drop.idx) + " cannot merge: cell " + std::to_string(c.idx) +
-                       " has both");
+      throw InputError(detail::name(m.keep) + " and " + detail::name(m.drop) +
+                       " cannot merge: " + detail::name(c) + " has both");
     }
   }
   for (int corner = first_corner_[m.drop.idx]; corner >= 0;) {
@@ -228,7 +233,7 @@ void HexMesh::merge_vertices(std::span<const VertexMerge> merges) {
   Transaction all_or_nothing(*this);
   for (const VertexMerge& m : merges) merge_vertex(m);
   for (const VertexMerge& m : merges) {
-    if (!is_live(m.keep)) continue;  // merged further by a later pair
+    if (!is_live(m.keep)) throw InputError(detail::name(m.keep) + " cannot be kept and dropped");
     const auto touched = cells(m.keep);
     for (auto it = touched.begin(); it != touched.end(); ++it) {
       const auto& x = kCornerCoords[it.slot() % 8];

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "ovm/detail/carry_properties.h"
+#include "ovm/detail/require_live.h"
 #include "ovm/detail/sort_unique.h"
 #include "ovm/errors.h"
 #include "ovm/topology_check.h"
@@ -74,9 +75,7 @@ SheetInserter::SheetInserter(HexMesh& mesh, std::span<const CellHandle> inside,
     throw InputError("depth_rel = " + std::to_string(options.depth_rel) + ", expected (0, 1)");
   }
   for (CellHandle c : inside) {
-    if (!c.valid() || c.idx >= mesh.cell_slots() || !mesh.is_live(c)) {
-      throw InputError("cell " + std::to_string(c.idx) + " is no cell of the mesh");
-    }
+    detail::require_live(mesh, c);
     inside_[c.idx] = 1;
   }
 }

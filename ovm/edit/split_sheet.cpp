@@ -4,6 +4,7 @@
 #include <string>
 
 #include "ovm/detail/carry_properties.h"
+#include "ovm/detail/require_live.h"
 #include "ovm/errors.h"
 #include "ovm/transaction.h"
 
@@ -63,9 +64,7 @@ VertexHandle SheetSplitter::add_middle(std::span<const VertexHandle> parents) {
 
 void SheetSplitter::add_edge_middles() {
   for (EdgeHandle e : sheet_.edges) {
-    if (!e.valid() || e.idx >= mesh_.edge_slots() || !mesh_.is_live(e)) {
-      throw InputError("edge " + std::to_string(e.idx) + " of the sheet is no edge of the mesh");
-    }
+    detail::require_live(mesh_, e, " of the sheet");
     const auto ends = mesh_.vertices(e);
     edge_middles_.push_back(add_middle(ends));
   }
@@ -171,10 +170,7 @@ void SheetSplitter::split(CellHandle c, const Crossed& crossed) {
 SheetSplit SheetSplitter::run() {
   std::vector<std::pair<CellHandle, Crossed>> cells;
   for (const CellAxis& x : sheet_.crossings) {
-    if (!x.cell.valid() || x.cell.idx >= mesh_.cell_slots() || !mesh_.is_live(x.cell)) {
-      throw InputError("cell " + std::to_string(x.cell.idx) +
-                       " of the sheet is no cell of the mesh");
-    }
+    detail::require_live(mesh_, x.cell, " of the sheet");
     if (cells.empty() || cells.back().first != x.cell) cells.emplace_back(x.cell, Crossed{});
     cells.back().second[x.axis] = true;
   }
@@ -195,9 +191,7 @@ SheetSplit split_sheet(HexMesh& mesh, const DualSheet& sheet) {
 }
 
 SheetSplit split_sheet(HexMesh& mesh, EdgeHandle e) {
-  if (!e.valid() || e.idx >= mesh.edge_slots() || !mesh.is_live(e)) {
-    throw InputError("edge " + std::to_string(e.idx) + " is no edge of the mesh");
-  }
+  detail::require_live(mesh, e);
   return split_sheet(mesh, dual_sheet(mesh, e));
 }
 

@@ -340,6 +340,46 @@ TEST(Merge, RefusesTwoCornersOfACellAndLeavesTheMesh) {
   EXPECT_TRUE(MeshDump(mesh) == before);
 }
 
+TEST(Merge, RefusesVerticesThatAreNotLiveAndThoseOfTwoPairs) {
+  HexMesh mesh = make_grid({1, 1, 1});
+  std::array<VertexHandle, 4> v;
+  for (VertexHandle& lone : v) lone = mesh.add_vertex(Eigen::Vector3d::Zero());
+  mesh.delete_vertex(v[3]);
+  const VertexHandle corner(0), beyond(mesh.vertex_slots());
+  const std::vector<std::vector<VertexMerge>> refused{{{v[0], v[0]}},
+                                                      {{v[0], v[3]}},
+                                                      {{v[3], v[0]}},
+                                                      {{v[0], beyond}},
+                                                      {{VertexHandle(), v[0]}},
+                                                      {{v[0], v[2]}, {v[1], v[2]}},
+                                                      {{corner, v[0]}, {v[0], v[1]}},
+                                                      {{v[0], corner}, {v[1], v[0]}}};
+  const MeshDump before(mesh);
+  for (const auto& merges : refused) {
+    EXPECT_THROW(mesh.merge_vertices(merges), InputError);
+    EXPECT_TRUE(MeshDump(mesh) == before);
+  }
+  mesh.merge_vertices(std::array{VertexMerge{v[0], corner}, VertexMerge{v[0], v[1]}});
+  EXPECT_EQ(mesh.vertices(CellHandle(0))[0], v[0]);
+  mesh.delete_vertex(v[2]);
+  EXPECT_THAT(check_topology(mesh), testing::IsEmpty());
+}
+
+TEST(Delete, RefusesWhatIsNotLive) {
+  HexMesh mesh = make_grid({2, 1, 1});
+  const VertexHandle lone = mesh.add_vertex(Eigen::Vector3d::Zero());
+  mesh.delete_vertex(lone);
+  mesh.delete_cell(CellHandle(0));
+  const MeshDump before(mesh);
+  for (VertexHandle v : {lone, VertexHandle(), VertexHandle(mesh.vertex_slots())}) {
+    EXPECT_THROW(mesh.delete_vertex(v), InputError);
+  }
+  for (CellHandle c : {CellHandle(0), CellHandle(), CellHandle(2)}) {
+    EXPECT_THROW(mesh.delete_cell(c), InputError);
+  }
+  EXPECT_TRUE(MeshDump(mesh) == before);
+}
+
 TEST(Transaction, ForbidsCompactionAndCopies) {
   HexMesh mesh = make_grid({1, 1, 1});
   Transaction t(mesh);
