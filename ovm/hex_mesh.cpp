@@ -14,7 +14,8 @@ HexMesh::HexMesh() {
 }
 
 HexMesh::HexMesh(const HexMesh& other)
-    : points_(other.points_),
+    : savepoints_(other.savepoints_),
+      points_(other.points_),
       vertex_live_(other.vertex_live_),
       first_corner_(other.first_corner_),
       first_half_edge_(other.first_half_edge_),
@@ -31,7 +32,6 @@ HexMesh::HexMesh(const HexMesh& other)
       vertex_serials_(other.vertex_serials_),
       cell_serials_(other.cell_serials_),
       counts_(other.counts_) {
-  if (!other.savepoints_.empty()) throw InputError("a mesh cannot be copied inside a transaction");
   const Registries& from = other.registries_;
   registries_ = {from.vertex->clone(), from.edge->clone(),      from.half_edge->clone(),
                  from.face->clone(),   from.half_face->clone(), from.cell->clone()};
@@ -39,6 +39,17 @@ HexMesh::HexMesh(const HexMesh& other)
 
 HexMesh& HexMesh::operator=(const HexMesh& other) {
   if (this != &other) *this = HexMesh(other);
+  return *this;
+}
+
+HexMesh::Savepoints::Savepoints(const Savepoints& other) {
+  if (!other.counts.empty()) throw InputError("a mesh cannot be copied inside a transaction");
+}
+
+HexMesh::Savepoints& HexMesh::Savepoints::operator=(Savepoints&& other) {
+  if (!counts.empty() || !other.counts.empty()) {
+    throw InputError("a mesh cannot be assigned inside a transaction");
+  }
   return *this;
 }
 
@@ -219,20 +230,20 @@ void HexMesh::for_each_array(F&& f) {
 void HexMesh::open_savepoint() {
   for_each_array([](auto& a) { a.open_savepoint(); });
   for (PropertyRegistry* r : registries_.all()) r->open_savepoint();
-  savepoints_.push_back(counts_);
+  savepoints_.counts.push_back(counts_);
 }
 
 void HexMesh::rollback() {
   for_each_array([](auto& a) { a.rollback(); });
   for (PropertyRegistry* r : registries_.all()) r->rollback();
-  counts_ = savepoints_.back();
-  savepoints_.pop_back();
+  counts_ = savepoints_.counts.back();
+  savepoints_.counts.pop_back();
 }
 
 void HexMesh::commit() {
   for_each_array([](auto& a) { a.commit(); });
   for (PropertyRegistry* r : registries_.all()) r->commit();
-  savepoints_.pop_back();
+  savepoints_.counts.pop_back();
 }
 
 // ---- Property registries by tag ----

@@ -44,11 +44,13 @@ struct VertexMerge {
 
 class HexMesh {
  public:
+  // ---- A mesh inside a transaction is not copied or assigned, to or from: InputError is thrown and
+  // both are as before. Nor may another be constructed by moving it. ----
   HexMesh();
   HexMesh(const HexMesh& other);  ///< named properties are copied, private ones stay behind
   HexMesh(HexMesh&&) noexcept = default;
   HexMesh& operator=(const HexMesh& other);
-  HexMesh& operator=(HexMesh&&) noexcept = default;
+  HexMesh& operator=(HexMesh&&) = default;
 
   // ---- Counts and ranges of live elements; *_slots() also counts the deleted ones ----
   int n_vertices() const { return counts_.vertices; }
@@ -167,12 +169,22 @@ class HexMesh {
   struct Counts {
     int vertices = 0, edges = 0, faces = 0, cells = 0;
   };
+  /// The counts when each savepoint was opened. What refuses copies and assignments while there are
+  /// any, hence the first of the members.
+  struct Savepoints {
+    Savepoints() = default;
+    Savepoints(const Savepoints& other);
+    Savepoints(Savepoints&&) noexcept = default;
+    Savepoints& operator=(Savepoints&& other);
+    std::vector<Counts> counts;
+  };
   /// Visits every array of the mesh (for savepoints and compaction).
   template <class F>
   void for_each_array(F&& f);
   void open_savepoint();
   void rollback();
   void commit();
+  int depth() const { return static_cast<int>(savepoints_.counts.size()); }
 
   EdgeHandle find_or_add_edge(VertexHandle a, VertexHandle b);
   void unlink_edge(EdgeHandle e);
@@ -183,6 +195,7 @@ class HexMesh {
   void merge_edge(EdgeHandle keep, EdgeHandle drop);
   void grow_registries();
 
+  Savepoints savepoints_;
   JournaledArray<Eigen::Vector3d> points_;
   JournaledArray<bool> vertex_live_;
   JournaledArray<int> first_corner_;     // per vertex: 8c + corner
@@ -199,7 +212,6 @@ class HexMesh {
   JournaledArray<FaceHandle> side_face_;  // 6 per cell
   detail::SerialNumbers vertex_serials_, cell_serials_;
   Counts counts_;
-  std::vector<Counts> savepoints_;
   struct Registries {
     std::shared_ptr<PropertyRegistry> vertex, edge, half_edge, face, half_face, cell;
     std::array<PropertyRegistry*, 6> all() const;

@@ -282,7 +282,7 @@ void renumber(JournaledArray<int>& slots_held, const std::vector<int>& new_of_ol
 }  // namespace
 
 Renumbering HexMesh::collect_garbage() {
-  if (!savepoints_.empty()) throw InputError("garbage cannot be collected inside a transaction");
+  if (depth() > 0) throw InputError("garbage cannot be collected inside a transaction");
   const auto kept_v = live(vertices()), kept_e = live(edges());
   const auto kept_f = live(faces()), kept_c = live(cells());
   Renumbering now = {inverse(kept_v, vertex_slots()), inverse(kept_e, edge_slots()),

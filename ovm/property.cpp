@@ -68,6 +68,9 @@ std::vector<std::shared_ptr<PropertyStorageBase>> PropertyRegistry::named() cons
 }
 
 bool PropertyRegistry::erase(const std::string& name) {
+  if (!savepoint_sizes_.empty()) {
+    throw InputError("property \"" + name + "\" cannot be erased inside a transaction");
+  }
   return std::erase_if(storages_, [&](const auto& s) { return s->name() == name; }) > 0;
 }
 

@@ -86,6 +86,8 @@ class PropertyRegistry {
   void remove_private(const PropertyStorageBase* storage);
   std::shared_ptr<PropertyStorageBase> find(const std::string& name) const;  ///< null if none
   std::vector<std::shared_ptr<PropertyStorageBase>> named() const;           ///< in order of birth
+  /// \return  if there was one
+  /// \throws InputError inside a transaction, which could not bring it back
   bool erase(const std::string& name);
   /// The named properties only, each copied.
   std::shared_ptr<PropertyRegistry> clone() const;

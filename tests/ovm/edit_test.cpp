@@ -1,6 +1,7 @@
 // Edits and their rollback.
 #include <algorithm>
 #include <functional>
+#include <memory>
 #include <random>
 
 #include <gmock/gmock.h>
@@ -380,11 +381,57 @@ TEST(Delete, RefusesWhatIsNotLive) {
   EXPECT_TRUE(MeshDump(mesh) == before);
 }
 
-TEST(Transaction, ForbidsCompactionAndCopies) {
+TEST(Transaction, ForbidsCompactionCopiesAndAssignments) {
+  HexMesh mesh = make_grid({1, 1, 1}), other = make_grid({2, 1, 1});
+  const MeshDump before(mesh), other_before(other);
+  {
+    Transaction t(mesh);
+    EXPECT_THROW(mesh.collect_garbage(), InputError);
+    EXPECT_THROW(HexMesh copy(mesh), InputError);
+    EXPECT_THROW(mesh = other, InputError);
+    EXPECT_THROW(mesh = std::move(other), InputError);
+    EXPECT_THROW(other = mesh, InputError);
+    EXPECT_THROW(other = std::move(mesh), InputError);
+    EXPECT_TRUE(MeshDump(mesh) == before);
+    EXPECT_TRUE(MeshDump(other) == other_before);
+    mesh.add_vertex(Eigen::Vector3d::Zero());
+  }
+  EXPECT_TRUE(MeshDump(mesh) == before);
+  mesh = other;
+  EXPECT_TRUE(MeshDump(mesh) == other_before);
+}
+
+TEST(Transaction, EndsOnlyAfterThoseInsideIt) {
   HexMesh mesh = make_grid({1, 1, 1});
-  Transaction t(mesh);
-  EXPECT_THROW(mesh.collect_garbage(), InputError);
-  EXPECT_THROW(HexMesh copy(mesh), InputError);
+  Transaction outer(mesh);
+  mesh.add_vertex(Eigen::Vector3d::Zero());
+  {
+    Transaction inner(mesh);
+    mesh.add_vertex(Eigen::Vector3d::Zero());
+    EXPECT_THROW(outer.commit(), InputError);
+    EXPECT_THROW(outer.rollback(), InputError);
+    EXPECT_EQ(mesh.n_vertices(), 10);
+  }
+  EXPECT_EQ(mesh.n_vertices(), 9) << "what was refused has closed nothing";
+  outer.commit();
+  outer.commit();
+  EXPECT_EQ(mesh.n_vertices(), 9);
+}
+
+TEST(Transaction, ThatIsDestroyedUndoesThoseInsideIt) {
+  HexMesh mesh = make_grid({1, 1, 1});
+  const MeshDump before(mesh);
+  {
+    auto outer = std::make_unique<Transaction>(mesh);
+    mesh.add_vertex(Eigen::Vector3d::Zero());
+    Transaction inner(mesh);
+    mesh.delete_cell(CellHandle(0));
+    outer.reset();
+    EXPECT_TRUE(MeshDump(mesh) == before);
+    EXPECT_THROW(inner.commit(), InputError);
+  }
+  EXPECT_TRUE(MeshDump(mesh) == before);
+  EXPECT_NO_THROW(mesh.collect_garbage());
 }
 
 }  // namespace

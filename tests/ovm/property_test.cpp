@@ -69,6 +69,17 @@ TEST(NamedProperty, RefusesAnotherType) {
   EXPECT_NO_THROW((named_property<CellTag, double>(mesh, "material")));
 }
 
+TEST(NamedProperty, CannotBeErasedInsideATransaction) {
+  HexMesh mesh = make_grid({1, 1, 1});
+  auto material = named_property<CellTag, int>(mesh, "material", 4);
+  {
+    Transaction t(mesh);
+    material[CellHandle(0)] = 5;
+    EXPECT_THROW(property_registry<CellTag>(mesh)->erase("material"), InputError);
+  }
+  EXPECT_EQ((named_property<CellTag, int>(mesh, "material")[CellHandle(0)]), 4);
+}
+
 TEST(Property, BornInsideATransactionShrinksWithIt) {
   HexMesh mesh = make_grid({1, 1, 1});
   const int n = mesh.vertex_slots();
