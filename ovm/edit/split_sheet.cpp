@@ -1,6 +1,7 @@
 #include "ovm/edit/split_sheet.h"
 
 #include <algorithm>
+#include <functional>
 #include <string>
 
 #include "ovm/detail/carry_properties.h"
@@ -32,6 +33,7 @@ class SheetSplitter {
 
  private:
   using Crossed = std::array<bool, 3>;  // the axes along which a cell is split
+  void require_current() const;
   void add_edge_middles();
   void add_face_middles(CellHandle c, const Crossed& crossed);
   VertexHandle add_middle(std::span<const VertexHandle> parents);
@@ -51,6 +53,33 @@ class SheetSplitter {
   SheetSplit result_;
 };
 
+// The sheet is one of this mesh as it is now if each edge of each crossing is of the sheet, which the
+// splitting sees to, and the edges are those of as many cells as there are crossings, four of each.
+void SheetSplitter::require_current() const {
+  for (const CellAxis& x : sheet_.crossings) {
+    detail::require_live(mesh_, x.cell, " of the sheet");
+    if (x.axis < 0 || x.axis > 2) {
+      throw InputError("the sheet crosses " + detail::name(x.cell) + " along axis " +
+                       std::to_string(x.axis) + ", expected 0, 1 or 2");
+    }
+  }
+  const auto twice = std::ranges::adjacent_find(sheet_.crossings, std::greater_equal());
+  if (twice != sheet_.crossings.end()) {
+    throw InputError(detail::name(twice->cell) + " of the sheet is out of order or there twice");
+  }
+  std::size_t n_at_edges = 0;
+  for (EdgeHandle e : sheet_.edges) {
+    detail::require_live(mesh_, e, " of the sheet");
+    n_at_edges += mesh_.valence(e);
+  }
+  if (n_at_edges != 4 * sheet_.crossings.size()) {
+    throw InputError("the sheet crosses other cells than those at its edges: there are " +
+                     std::to_string(n_at_edges) +
+                     " pairs of an edge and a cell at it, expected 4 x " +
+                     std::to_string(sheet_.crossings.size()));
+  }
+}
+
 VertexHandle SheetSplitter::add_middle(std::span<const VertexHandle> parents) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (VertexHandle v : parents) sum += mesh_.point(v);
@@ -64,7 +93,6 @@ VertexHandle SheetSplitter::add_middle(std::span<const VertexHandle> parents) {
 
 void SheetSplitter::add_edge_middles() {
   for (EdgeHandle e : sheet_.edges) {
-    detail::require_live(mesh_, e, " of the sheet");
     const auto ends = mesh_.vertices(e);
     edge_middles_.push_back(add_middle(ends));
   }
@@ -168,9 +196,9 @@ void SheetSplitter::split(CellHandle c, const Crossed& crossed) {
 }
 
 SheetSplit SheetSplitter::run() {
+  require_current();
   std::vector<std::pair<CellHandle, Crossed>> cells;
   for (const CellAxis& x : sheet_.crossings) {
-    detail::require_live(mesh_, x.cell, " of the sheet");
     if (cells.empty() || cells.back().first != x.cell) cells.emplace_back(x.cell, Crossed{});
     cells.back().second[x.axis] = true;
   }

@@ -38,7 +38,8 @@ struct SheetSplit {
 /// the properties of their parents, new vertices the means of reals and of other numbers what their
 /// parents have in common; new elements inside a cell or across a face have the defaults. Positions
 /// are means of the parents, nothing is projected.
-/// \throws InputError if the edge is deleted or the sheet is none of this mesh; nothing changes
+/// \throws InputError if the edge is deleted or the sheet is none of this mesh as it is now; nothing
+///         changes
 SheetSplit split_sheet(HexMesh& mesh, EdgeHandle e);
 SheetSplit split_sheet(HexMesh& mesh, const DualSheet& sheet);
 

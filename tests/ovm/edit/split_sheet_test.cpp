@@ -235,5 +235,38 @@ TEST(SplitSheet, RefusesWhatIsNoSheetOfTheMesh) {
   EXPECT_TRUE(MeshDump(mesh) == before);
 }
 
+// The sheet of the one cell would part the two that share a face by now.
+TEST(SplitSheet, RefusesASheetThatHasGrownSince) {
+  HexMesh mesh = make_grid({1, 1, 1});
+  const DualSheet sheet = dual_sheet(mesh, mesh.edges(CellHandle(0))[0]);
+  const CellVertices v = mesh.vertices(CellHandle(0));
+  std::array<VertexHandle, 4> top;
+  for (int i = 0; i < 4; ++i) top[i] = mesh.add_vertex({double(i % 2), 2, double(i / 2)});
+  mesh.add_cell({v[3], v[2], top[1], top[0], v[7], v[6], top[3], top[2]});
+  ASSERT_THAT(check_topology(mesh), testing::IsEmpty());
+  const MeshDump before(mesh);
+  EXPECT_THROW(split_sheet(mesh, sheet), InputError);
+  EXPECT_TRUE(MeshDump(mesh) == before);
+}
+
+TEST(SplitSheet, RefusesCrossingsThatAreNotThoseOfTheEdges) {
+  HexMesh mesh = make_grid({3, 2, 2});
+  const DualSheet sheet = dual_sheet(mesh, EdgeHandle(0));
+  const auto expect_refused = [&](const char* what, auto change) {
+    DualSheet wrong = sheet;
+    change(wrong);
+    const MeshDump before(mesh);
+    EXPECT_THROW(split_sheet(mesh, wrong), InputError) << what;
+    EXPECT_TRUE(MeshDump(mesh) == before) << what;
+  };
+  expect_refused("one too few", [](DualSheet& s) { s.crossings.pop_back(); });
+  expect_refused("one twice", [](DualSheet& s) { s.crossings[1] = s.crossings[0]; });
+  expect_refused("out of order", [](DualSheet& s) { std::swap(s.crossings[0], s.crossings[1]); });
+  expect_refused("another axis", [](DualSheet& s) { s.crossings[0].axis ^= 1; });
+  expect_refused("no axis", [](DualSheet& s) { s.crossings[0].axis = 3; });
+  expect_refused("no cell", [](DualSheet& s) { s.crossings[0].cell = CellHandle(); });
+  expect_refused("an edge twice", [](DualSheet& s) { s.edges[1] = s.edges[0]; });
+}
+
 }  // namespace
 }  // namespace hexweft
