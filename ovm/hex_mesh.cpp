@@ -199,14 +199,16 @@ bool same_vertices(const QuadVertices& a, const QuadVertices& b) {
 }  // namespace
 
 HalfFaceHandle HexMesh::find_halfface(const QuadVertices& vertices_of_quad) const {
-  const EdgeHandle e = find_edge(vertices_of_quad[0], vertices_of_quad[1]);
-  const EdgeHandle any = e.valid() ? e : find_edge(vertices_of_quad[0], vertices_of_quad[2]);
-  if (!any.valid()) return HalfFaceHandle();
-  const auto cells_of_edge = cells(any);
-  for (auto it = cells_of_edge.begin(); it != cells_of_edge.end(); ++it) {
-    for (int s : kEdgeSides[it.slot() % 12]) {
-      const HalfFaceHandle hf = halfface(*it, s);
-      if (same_vertices(vertices(hf), vertices_of_quad)) return hf;
+  // Only one of the others is across from the first; an edge to it, if any, is of other faces.
+  for (int i = 1; i < 3; ++i) {
+    const EdgeHandle e = find_edge(vertices_of_quad[0], vertices_of_quad[i]);
+    if (!e.valid()) continue;
+    const auto cells_of_edge = cells(e);
+    for (auto it = cells_of_edge.begin(); it != cells_of_edge.end(); ++it) {
+      for (int s : kEdgeSides[it.slot() % 12]) {
+        const HalfFaceHandle hf = halfface(*it, s);
+        if (same_vertices(vertices(hf), vertices_of_quad)) return hf;
+      }
     }
   }
   return HalfFaceHandle();

@@ -212,6 +212,21 @@ TEST(Neighborhood, SheetOfAGridIsALayer) {
   EXPECT_FALSE(adjacent_on_sheet(mesh, side_at(c, 2, 1), mesh.edges(c)[2]).valid());
 }
 
+TEST(Search, FindsAFaceWhoseDiagonalIsAnEdgeElsewhere) {
+  HexMesh mesh = make_grid({1, 1, 1});
+  const HalfFaceHandle hf = mesh.halfface(CellHandle(0), 0);
+  QuadVertices quad = mesh.vertices(hf);
+  CellVertices elsewhere;
+  elsewhere[0] = quad[0];
+  elsewhere[1] = quad[2];
+  for (int i = 2; i < kCorners; ++i) elsewhere[i] = mesh.add_vertex({5.0 + i, 1, 2});
+  mesh.add_cell(elsewhere);
+  std::sort(quad.begin(), quad.end());
+  do {
+    EXPECT_EQ(mesh.find_halfface(quad), hf);
+  } while (std::next_permutation(quad.begin(), quad.end()));
+}
+
 TEST(AddCell, RefusesWhatIsNoHexahedron) {
   HexMesh mesh = make_grid({1, 1, 1});
   CellVertices v = mesh.vertices(CellHandle(0));
