@@ -4,12 +4,17 @@
 ///     CellProperty<int> block(mesh, -1);  // private: lives as long as this object
 ///     auto weight = named_property<VertexTag, double>(mesh, "weight", 1.0);  // the mesh keeps it
 ///     block[c] = 3;
+///     if (block.get(c) == 3) ...
+///
+/// A transaction logs what may be written: of a property that is not const, block[c] counts as a
+/// write even if it is only read, block.get(c) does not.
 #pragma once
 
 #include <memory>
 #include <span>
 #include <string>
 #include <typeinfo>
+#include <utility>
 #include <vector>
 
 #include "ovm/detail/mean_value.h"
@@ -135,8 +140,9 @@ class Property {
   }
   ~Property() { release(); }
 
-  const T& operator[](Handle<Tag> h) const { return std::as_const(*storage_).values()[h.idx]; }
-  T& operator[](Handle<Tag> h) { return storage_->values().at(h.idx); }
+  const T& get(Handle<Tag> h) const { return std::as_const(*storage_).values()[h.idx]; }
+  const T& operator[](Handle<Tag> h) const { return get(h); }
+  T& operator[](Handle<Tag> h) { return storage_->values().at(h.idx); }  ///< counts as a write
   const std::string& name() const { return storage_->name(); }
   int size() const { return storage_->values().size(); }
 

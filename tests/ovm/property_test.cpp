@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include <gmock/gmock.h>
 
@@ -78,6 +79,26 @@ TEST(NamedProperty, CannotBeErasedInsideATransaction) {
     EXPECT_THROW(property_registry<CellTag>(mesh)->erase("material"), InputError);
   }
   EXPECT_EQ((named_property<CellTag, int>(mesh, "material")[CellHandle(0)]), 4);
+}
+
+// A value that knows how often it was copied.
+struct Counted {
+  Counted() = default;
+  Counted(const Counted&) { ++n_copies; }
+  Counted& operator=(const Counted&) = default;
+  static inline int n_copies = 0;
+};
+
+TEST(Property, IsNotLoggedWhereItIsReadAsConstant) {
+  HexMesh mesh = make_grid({1, 1, 1});
+  CellProperty<Counted> value(mesh);
+  Transaction t(mesh);
+  Counted::n_copies = 0;
+  value.get(CellHandle(0));
+  std::as_const(value)[CellHandle(0)];
+  EXPECT_EQ(Counted::n_copies, 0);
+  value[CellHandle(0)];
+  EXPECT_EQ(Counted::n_copies, 1);
 }
 
 TEST(Property, BornInsideATransactionShrinksWithIt) {
