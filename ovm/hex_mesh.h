@@ -45,7 +45,8 @@ struct VertexMerge {
 class HexMesh {
  public:
   // ---- A mesh inside a transaction is not copied or assigned, to or from: InputError is thrown and
-  // both are as before. Nor may another be constructed by moving it. ----
+  // both are as before. Nor may another be constructed by moving it. A mesh moved from is only to be
+  // assigned or destroyed. Property objects do not go along with an assignment, see property.h. ----
   HexMesh();
   HexMesh(const HexMesh& other);  ///< named properties are copied, private ones stay behind
   HexMesh(HexMesh&&) noexcept = default;

@@ -8,6 +8,10 @@
 ///
 /// A transaction logs what may be written: of a property that is not const, block[c] counts as a
 /// write even if it is only read, block.get(c) does not.
+///
+/// A mesh that is assigned takes over the named properties of the other with its elements; so it is
+/// with functions that replace a mesh as a whole. Property objects from before keep the values that
+/// they had, but these are the mesh's no more: make private ones anew and fetch named ones again.
 #pragma once
 
 #include <memory>

@@ -61,6 +61,20 @@ TEST(NamedProperty, StaysWithTheMeshAndItsCopies) {
   EXPECT_EQ((named_property<FaceTag, int>(moved, "patch")[FaceHandle(3)]), 8);
 }
 
+TEST(NamedProperty, IsFetchedAgainAfterItsMeshWasAssigned) {
+  HexMesh mesh = make_grid({1, 1, 1});
+  auto weight = named_property<CellTag, double>(mesh, "weight", 0.5);
+  HexMesh other = make_grid({2, 1, 1});
+  named_property<CellTag, double>(other, "weight", 0.25);
+  mesh = std::move(other);
+  EXPECT_EQ(weight.size(), 1) << "values of the mesh that was";
+  weight = named_property<CellTag, double>(mesh, "weight");
+  EXPECT_EQ(weight.size(), 2);
+  EXPECT_EQ(weight[CellHandle(1)], 0.25);
+  other = make_grid({3, 1, 1});
+  EXPECT_EQ(other.n_cells(), 3) << "assigned after it was moved from";
+}
+
 TEST(NamedProperty, RefusesAnotherType) {
   const HexMesh mesh = make_grid({1, 1, 1});
   named_property<CellTag, int>(mesh, "material");
