@@ -143,7 +143,8 @@ class HexMesh {
   // Handles are those of live elements, or InputError is thrown and the mesh is as before ----
   VertexHandle add_vertex(const Eigen::Vector3d& p);
   /// Faces are glued where a half-face with the same vertices waits for a mate.
-  /// \throws InputError unless the 8 vertices are live and different
+  /// \throws InputError unless the 8 vertices are live and different, and where the numbers of
+  ///         incidences outgrow int: beyond 178 million cells or 1,073 million edges, gaps included
   CellHandle add_cell(CellVertices vertices);  // by value: it may come out of this very mesh
   void delete_cell(CellHandle c);      ///< edges and faces that no cell uses go too; vertices stay
   void delete_vertex(VertexHandle v);  ///< \throws InputError if a cell uses it
@@ -152,7 +153,7 @@ class HexMesh {
   /// A vertex may be kept by many pairs, but one that is dropped is in no other pair.
   /// \throws InputError if it is, or a cell has both vertices of a pair; the mesh is then as before
   void merge_vertices(std::span<const VertexMerge> merges);
-  void reserve(int vertices, int cells);
+  void reserve(int vertices, int cells);  ///< \throws InputError for more than add_cell() can add
 
   /// Closes the gaps of deleted elements; all handles change but for their order, properties follow.
   /// \return the new handles
@@ -194,7 +195,6 @@ class HexMesh {
   FaceHandle add_face(HalfFaceHandle hf);
   void merge_vertex(VertexMerge m);
   void merge_edge(EdgeHandle keep, EdgeHandle drop);
-  void grow_registries();
 
   Savepoints savepoints_;
   JournaledArray<Eigen::Vector3d> points_;

@@ -1,5 +1,6 @@
 // The edits of HexMesh: each leaves every incidence current.
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <string>
 
@@ -33,9 +34,19 @@ bool same_vertices(QuadVertices a, QuadVertices b) {
   return a == b;
 }
 
+// Incidences are numbered 12c + edge of the cell and 2e + end of the edge, as int.
+void require_room(int cell_slots, int edge_slots) {
+  constexpr int kMost = std::numeric_limits<int>::max();
+  if (cell_slots <= kMost / kHexEdges && edge_slots <= kMost / 2) return;
+  throw InputError("a mesh has room for " + std::to_string(kMost / kHexEdges) + " cells and " +
+                   std::to_string(kMost / 2) + " edges, gaps of deleted ones among them; not for " +
+                   std::to_string(cell_slots) + " and " + std::to_string(edge_slots));
+}
+
 }  // namespace
 
 void HexMesh::reserve(int vertices, int cells) {
+  require_room(cells, 0);
   points_.reserve(vertices);
   vertex_live_.reserve(vertices);
   first_corner_.reserve(vertices);
@@ -122,6 +133,7 @@ CellHandle HexMesh::add_cell(CellVertices v) {
                        std::to_string(i) + " is vertex " + std::to_string(v[i].idx));
     }
   }
+  require_room(cell_slots() + 1, edge_slots() + kHexEdges);
   const CellHandle c(cell_slots());
   cell_vertices_.push_back(v);
   corner_next_.resize(8 * cell_slots(), -1);

@@ -1,4 +1,5 @@
 // The kernel's incidences against those found by looking at every cell.
+#include <limits>
 #include <set>
 
 #include <gmock/gmock.h>
@@ -238,6 +239,11 @@ TEST(AddCell, RefusesWhatIsNoHexahedron) {
   EXPECT_THROW(mesh.add_cell(v), InputError);
   EXPECT_EQ(mesh.n_cells(), 1);
   EXPECT_THROW(mesh.delete_vertex(VertexHandle(3)), InputError);
+}
+
+TEST(Reserve, RefusesMoreCellsThanThereAreNumbersForTheirEdges) {
+  HexMesh mesh;
+  EXPECT_THROW(mesh.reserve(0, std::numeric_limits<int>::max() / kHexEdges + 1), InputError);
 }
 
 }  // namespace
