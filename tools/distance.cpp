@@ -13,6 +13,7 @@ using Json = nlohmann::ordered_json;
 struct Request {
   std::string a, b;
   HausdorffOptions options;
+  double limit_rel = 0.01;
   int threads = 1;
 };
 
@@ -35,6 +36,7 @@ int run(cli::Program& program, Request& request) {
   const ReferenceSurface b = program.read_surface(request.b);
   HausdorffOptions& options = request.options;
   options.parallel = request.threads > 1;
+  options.limit = request.limit_rel * b.bounding_box_diagonal();
   const HausdorffDistance d = hausdorff_distance(a, b, options);
   program.write_json({{"distance", d.distance()},
                       {"diagonal", d.diagonal},
@@ -70,6 +72,11 @@ int main(int argc, char** argv) {
                  "Look at no fewer points of every triangle; as many a triangle are spread over "
                  "the surface by area")
       ->check(cli::in_range(1, 1e6))
+      ->capture_default_str();
+  app.add_option("--limit", request.limit_rel,
+                 "What the distance is held against, of the diagonal: it is told to a twentieth of "
+                 "that, as far as it is over half of it")
+      ->check(cli::in_range(1e-6, 1))
       ->capture_default_str();
   program.add_threads(request.threads);
   program.add_json();

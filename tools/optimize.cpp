@@ -83,9 +83,9 @@ int run(cli::Program& program, Request& request) {
   {
     const cli::BusyLine busy(request.untangle ? "untangling" : "optimizing");
     if (request.untangle) {
-      hausdorff_before = hausdorff_distance(mesh, surface).ratio();
+      hausdorff_before = hausdorff_ratio(mesh, surface, request.options.hausdorff_limit_rel);
       untangle(mesh, surface, request.options.parametrization, request.options.global_rounds);
-      hausdorff_after = hausdorff_distance(mesh, surface).ratio();
+      hausdorff_after = hausdorff_ratio(mesh, surface, request.options.hausdorff_limit_rel);
     } else {
       const SmoothingReport r = smooth(mesh, surface, request.options);
       hausdorff_before = r.initial_hausdorff_rel;

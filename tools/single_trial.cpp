@@ -59,12 +59,13 @@ SingleTrial::SingleTrial(Program& program, const TrialArguments& arguments)
 
 nlohmann::ordered_json SingleTrial::figures() const {
   const MeshFigures f = measure_mesh(mesh_);
+  const double limit_rel = context_.final_limit / surface_.bounding_box_diagonal();
   return {{"hexahedra", f.hexahedra},
           {"components", f.components},
           {"min_scaled_jacobian", f.min_scaled_jacobian},
           {"mean_scaled_jacobian", f.mean_scaled_jacobian},
           {"inverted", f.inverted},
-          {"hausdorff_ratio", hausdorff_distance(mesh_, surface_).ratio()}};
+          {"hausdorff_ratio", hausdorff_ratio(mesh_, surface_, limit_rel)}};
 }
 
 std::string compare(const nlohmann::ordered_json& before, const nlohmann::ordered_json& after) {

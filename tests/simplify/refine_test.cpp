@@ -40,6 +40,15 @@ double mean_length(const HexMesh& mesh, const DualSheet& s) {
   return sum / static_cast<double>(s.edges.size());
 }
 
+TEST(TryRefine, LeavesNoLabelsWhereVerticesWereAdded) {
+  TrialBench b(make_long_cells(), 0.01, FeatureMode::automatic);
+  ASSERT_EQ(std::ssize(b.context.feature_labels()), b.mesh.vertex_slots());
+  const auto sheets = list_sheets_to_refine(b.mesh, b.distance, {.max_cells = 100}, {});
+  ASSERT_FALSE(sheets.empty());
+  ASSERT_TRUE(try_refine(b.context, dual_sheet(b.mesh, sheets.front()), {}));
+  EXPECT_EQ(std::ssize(b.context.feature_labels()), b.mesh.vertex_slots());
+}
+
 TEST(SheetsToRefine, AreLongAcross) {
   const Bench b(make_long_cells());
   const auto s = b.first({.max_cells = 100});

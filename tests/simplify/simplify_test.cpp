@@ -479,6 +479,17 @@ TEST(Simplify, ComparesCandidatesIfAsked) {
   EXPECT_EQ(one.before.components, compared.before.components);
 }
 
+TEST(Simplify, WhatWasFoundToSucceedIsNotLeftForWhatFailsBesideIt) {
+  const HexMesh input = make_small_sphere();
+  SimplifyOptions options;
+  options.max_failed_trials = 1;
+  options.peels = options.pillows = options.smooth = options.coarsen = false;
+  const SimplifyReport one = simplify_well(input, options);
+  ASSERT_GT(one.collapses(), 0);
+  options.compare = 8;
+  EXPECT_GE(simplify_well(input, options).collapses(), one.collapses());
+}
+
 // What is told of the smoothed meshes that it goes on from, and in the end.
 TEST(Simplify, GoesOnFromTheSmoothedMeshToABetterOutcomeOnly) {
   struct Input {
