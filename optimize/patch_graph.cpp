@@ -46,6 +46,21 @@ Groups<Side> sides_at_vertices(int n_vertices, std::span<const std::array<int, 4
   return sides;
 }
 
+// However many quads a face has at a vertex, it counts once.
+Eigen::Vector3d mean_of_different(const std::vector<Eigen::Vector3d>& normals,
+                                  std::span<const Side> sides, double same) {
+  std::vector<Eigen::Vector3d> different;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Side& side : sides) {
+    const Eigen::Vector3d& n = normals[side.quad];
+    const auto is_same = [&](const Eigen::Vector3d& m) { return n.dot(m) >= same; };
+    if (std::any_of(different.begin(), different.end(), is_same)) continue;
+    different.push_back(n);
+    sum += n;
+  }
+  return sum.normalized();
+}
+
 }  // namespace
 
 PatchGraph::PatchGraph(const Eigen::Matrix3Xd& points, std::span<const std::array<int, 4>> quads)
@@ -54,13 +69,10 @@ PatchGraph::PatchGraph(const Eigen::Matrix3Xd& points, std::span<const std::arra
       normals_(points.cols(), Eigen::Vector3d::Zero()) {
   const double bent = std::cos(25 * std::numbers::pi / 180);
   const std::vector<Eigen::Vector3d> normals = normals_of(points, quads);
-  for (std::size_t i = 0; i < quads.size(); ++i) {
-    for (int v : quads[i]) normals_[v] += normals[i];
-  }
-  for (Eigen::Vector3d& n : normals_) n.normalize();
   Groups<Side> sides = sides_at_vertices(static_cast<int>(points.cols()), quads);
   for (int v = 0; v < points.cols(); ++v) {
     const std::span<Side> here = sides[v];
+    normals_[v] = mean_of_different(normals, here, bent);
     std::sort(here.begin(), here.end());
     for (std::size_t i = 0, next = 0; i < here.size(); i = next) {
       const auto [to, quad] = here[i];

@@ -25,7 +25,7 @@ class PatchGraph {
     return {edges_.data() + first_[v], edges_.data() + first_[v + 1]};
   }
   double mean_length(int v) const { return mean_[v]; }  ///< 0 for a vertex of no quad
-  /// Mean of the directions of the quads at it, length 1; zero if there is none.
+  /// Mean of the different directions of the quads at it, length 1; zero if there is none.
   const Eigen::Vector3d& normal(int v) const { return normals_[v]; }
 
  private:
