@@ -117,7 +117,7 @@ const CurvePoint* Assignment::near(int v, int line) const {
   return at == near_[v].end() ? nullptr : std::to_address(at);
 }
 
-/// The corners within reach all of whose lines the vertex may lie on.
+/// The corners within reach of whose lines the vertex may lie on more than half.
 std::vector<int> Assignment::corners_near(int v) const {
   std::vector<int> ends;  // a corner within reach is an end of lines within it
   for (const CurvePoint& on : near_[v]) {
@@ -130,7 +130,7 @@ std::vector<int> Assignment::corners_near(int v) const {
   for (auto next = ends.begin(); next != ends.end();) {
     const int c = *next;
     const auto end = std::upper_bound(next, ends.end(), c);
-    if (end - next == lines_at_corner_[c]) corners.push_back(c);
+    if (2 * (end - next) > lines_at_corner_[c]) corners.push_back(c);
     next = end;
   }
   return corners;

@@ -57,28 +57,26 @@ void SurfaceConstraint::pulls(const Eigen::Matrix3Xd& points, const std::vector<
 
 double SurfaceConstraint::move_to_goals(Region& region, const std::vector<SurfaceGoal>& goals,
                                         double least) const {
-  constexpr int kHalvings = 5;
+  constexpr double kLeastFraction = 1.0 / 16;
   if (goals.empty()) return 1;
   Eigen::Matrix3Xd start(3, static_cast<Eigen::Index>(goals.size()));
   for (std::size_t i = 0; i < goals.size(); ++i) start.col(i) = region.points.col(goals[i].vertex);
   const std::vector<double> before = scaled_jacobians(region.points, hexes_);
   std::vector<double> fraction(goals.size(), 1.0);
-  // Each round from kHalvings on puts at least one vertex back for good, until nothing falls.
-  for (int round = 1;; ++round) {
+  for (bool good = false; !good;) {
     for (std::size_t i = 0; i < goals.size(); ++i) {
       region.points.col(goals[i].vertex) =
           (1 - fraction[i]) * start.col(i) + fraction[i] * goals[i].point;
     }
     const std::vector<double> now = scaled_jacobians(region.points, hexes_);
     const auto falls = [&](int h) { return now[h] < std::min(least, before[h]); };
-    bool good = true;
+    good = true;
     for (int i = 0; i < static_cast<int>(goals.size()); ++i) {
       const auto hexes = around_[i];
       if (fraction[i] == 0 || std::none_of(hexes.begin(), hexes.end(), falls)) continue;
-      fraction[i] = round >= kHalvings ? 0 : fraction[i] / 2;
+      fraction[i] = fraction[i] > kLeastFraction ? fraction[i] / 2 : 0;
       good = false;
     }
-    if (good) break;
   }
   return static_cast<double>(std::count(fraction.begin(), fraction.end(), 1.0)) /
          static_cast<double>(goals.size());

@@ -14,8 +14,9 @@
 namespace hexweft {
 namespace {
 
-std::vector<Peel> peels_of(const HexMesh& mesh, const BaseComplex& bc) {
-  const ReferenceSurface surface = make_reference_surface(mesh);
+// With the features of a surface that may be that of an earlier mesh.
+std::vector<Peel> peels_of(const HexMesh& mesh, const BaseComplex& bc,
+                           const ReferenceSurface& surface) {
   return extract_peels(bc, extract_sheets(bc),
                        base_edges_on_features(bc, feature_of(surface, mesh)));
 }
@@ -24,7 +25,7 @@ TEST(Peel, IsWhatLiesUnderOneFace) {
   for (int n : {1, 3}) {
     const HexMesh mesh = make_padded_cube(n);
     const BaseComplex bc = extract_base_complex(mesh);
-    const std::vector<Peel> peels = peels_of(mesh, bc);
+    const std::vector<Peel> peels = peels_of(mesh, bc, make_reference_surface(mesh));
     ASSERT_EQ(peels.size(), 6u);
     std::set<int> components;
     for (const Peel& p : peels) {
@@ -77,9 +78,10 @@ TEST(Peel, OffFiveFacesOfAPaddedCubeLeavesAGrid) {
     }
     mesh.collect_garbage();
     ASSERT_EQ(mesh.n_cells(), 27 + 54 * layers);
+    const ReferenceSurface surface = make_reference_surface(mesh);
     for (int face = 0; face < 5; ++face) {
       const BaseComplex bc = extract_base_complex(mesh);
-      const std::vector<Peel> peels = peels_of(mesh, bc);
+      const std::vector<Peel> peels = peels_of(mesh, bc, surface);
       ASSERT_FALSE(peels.empty());
       EXPECT_EQ(peels.front().width, layers);
       const CollapsePlan plan = plan_peel(mesh, bc, peels.front());
@@ -105,7 +107,7 @@ TEST(Peel, WhatLayUnderItComesUpToTheFace) {
     SCOPED_TRACE(n);
     HexMesh mesh = make_padded_cube(n);
     const BaseComplex bc = extract_base_complex(mesh);
-    for (const Peel& peel : peels_of(mesh, bc)) {
+    for (const Peel& peel : peels_of(mesh, bc, make_reference_surface(mesh))) {
       Transaction trial(mesh);
       Eigen::AlignedBox3d face;
       const auto [component, side] = peel.components.front();
