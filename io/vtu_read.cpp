@@ -69,8 +69,7 @@ class VtuReader {
 MeshData VtuReader::read_piece(pugi::xml_node piece) {
   const std::int64_t n_points =
       document_.integer(piece, "NumberOfPoints", 0, kMostPoints - n_points_);
-  const std::int64_t n_cells =
-      document_.integer(piece, "NumberOfCells", 0, kMostCells - n_cells_);
+  const std::int64_t n_cells = document_.integer(piece, "NumberOfCells", 0, kMostCells - n_cells_);
   n_points_ += n_points;
   n_cells_ += n_cells;
   MeshData data;
