@@ -37,10 +37,18 @@ struct Closeness {
   double faint = 0;
 };
 
+/// Of the size of a surface, the limit that distances are held against if nothing else is asked for.
+inline constexpr double kUsualLimit = 0.01;
+
 /// What it takes to tell whether a limit is kept.
 /// \param size  of the surface, which bounds the effort where the limit is very small
 inline Closeness closeness_for(double limit, double size) {
   return {std::max(0.05 * limit, 2e-4 * size), std::max(0.5 * limit, 5e-4 * size)};
+}
+
+/// The limit that a mesh is held to is looked for no less closely than the usual one.
+inline double limit_to_look_for(double limit, double size) {
+  return std::min(limit, kUsualLimit * size);
 }
 
 /// How far a point is, and the piece of the other surface that it was found to be so far from; -1 if

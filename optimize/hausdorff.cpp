@@ -31,8 +31,6 @@ void check(const HausdorffOptions& o) {
   }
 }
 
-constexpr double kUsualLimit = 0.01;  // of the diagonal, where none is asked for
-
 /// Its feature lines have no say in a distance.
 ReferenceSurface boundary_of(const HexMesh& mesh) {
   return make_reference_surface(mesh, kNormalAngleDeg, {.mode = FeatureMode::off});
@@ -52,14 +50,15 @@ bool is_within(const HexMesh& mesh, const ReferenceSurface& reference, double li
   HausdorffOptions o = options;
   o.at_least = 0.999 * limit;
   o.enough = limit;
-  o.limit = limit;
+  o.limit = limit_to_look_for(limit, reference.bounding_box_diagonal());
   return hausdorff_distance(boundary_of(mesh), reference, o).distance() <= limit;
 }
 
 double hausdorff_ratio(const HexMesh& mesh, const ReferenceSurface& reference, double limit_rel,
                        const HausdorffOptions& options) {
   HausdorffOptions o = options;
-  o.limit = limit_rel * reference.bounding_box_diagonal();
+  const double diagonal = reference.bounding_box_diagonal();
+  o.limit = limit_to_look_for(limit_rel * diagonal, diagonal);
   return hausdorff_distance(mesh, reference, o).ratio();
 }
 

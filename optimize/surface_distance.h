@@ -14,6 +14,7 @@
 #include <span>
 #include <vector>
 
+#include "optimize/farthest_sample.h"
 #include "optimize/known_distances.h"
 #include "optimize/quad_grid.h"
 #include "optimize/reference_surface.h"
@@ -100,6 +101,7 @@ class SurfaceDistance {
     int first_centroid, end;  // of it and its parts
   };
 
+  Closeness closeness(double limit) const;
   bool changed_triangles_are_within(double limit, double skip);
   void make_room(int n_sides);
   void make_samples(int levels);

@@ -14,10 +14,14 @@ constexpr int kLevels = 3;  // 64 parts of a triangle of mean size, each with it
 
 }  // namespace
 
+Closeness SurfaceDistance::closeness(double limit) const {
+  const double size = reference_.bounding_box_diagonal();
+  return closeness_for(limit_to_look_for(limit, size), size);
+}
+
 bool SurfaceDistance::change_is_within(double limit, double skip_rel) {
   too_far_at_.reset();
-  FarthestSample farthest(DistanceTo(reference_), limit, limit,
-                          closeness_for(limit, reference_.bounding_box_diagonal()),
+  FarthestSample farthest(DistanceTo(reference_), limit, limit, closeness(limit),
                           CoveredByTriangle{reference_});
   for (const SideUndo& u : side_undo_) {
     if (!grid_.contains(u.side) || forward_[u.side] < skip_rel * limit) continue;
@@ -44,7 +48,7 @@ bool SurfaceDistance::changed_triangles_are_within(double limit, double skip) {
         guess = nearest.id;
         return FoundDistance{std::sqrt(nearest.squared_distance), nearest.id};
       },
-      limit, limit, closeness_for(limit, reference_.bounding_box_diagonal()), CoveredByQuad{grid_});
+      limit, limit, closeness(limit), CoveredByQuad{grid_});
   const auto& triangles = reference_.triangles();
   // A side that moved can come nearest to, or leave, parts of the triangles beside these as well.
   std::vector<char> near_change(reference_.points().cols(), 0);

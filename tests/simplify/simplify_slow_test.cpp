@@ -215,7 +215,7 @@ TEST(SimplifySlow, TheLastCheckpointIsTheOutcome) {
   options.checkpoint = [&](const HexMesh& mesh, const RunState& state) {
     EXPECT_TRUE(is_good(mesh));
     kept = measure_mesh(mesh).components;
-    if (state.smoothed) EXPECT_GT(state.step, 0);
+    EXPECT_TRUE(!state.smoothed || state.step > 0);
   };
   const SimplifyReport report = simplify_well(input, options);
   EXPECT_EQ(kept, report.after.components);
